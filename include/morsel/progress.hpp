@@ -1,0 +1,36 @@
+// morsel: progress and cancellation of long work.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string_view>
+
+namespace morsel {
+
+/// Passed by reference into long work. The work reports through `report`; any thread may `cancel`.
+class Progress {
+ public:
+  /// `stage` is a stage's name as in the report ("triangulate"); `fraction` in [0, 1] of all work.
+  using Callback = std::function<void(std::string_view stage, double fraction)>;
+
+  Progress() = default;
+  explicit Progress(Callback callback) : callback_(std::move(callback)) {}
+
+  /// Asks the work to stop: it then throws Error(kCancelled). Safe from any thread and from a
+  /// signal handler.
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  [[nodiscard]] bool cancelled() const noexcept {
+    return cancelled_.load(std::memory_order_relaxed);
+  }
+
+  /// Calls the callback, then throws Error(kCancelled) if cancellation was asked for.
+  void report(std::string_view stage, double fraction) const;
+  /// Throws Error(kCancelled) if cancellation was asked for; cheap enough for inner loops.
+  void check() const;
+
+ private:
+  Callback callback_;
+  std::atomic<bool> cancelled_{false};
+};
+
+}  // namespace morsel

@@ -1,0 +1,15 @@
+#include <morsel/error.hpp>
+#include <morsel/progress.hpp>
+
+namespace morsel {
+
+void Progress::check() const {
+  if (cancelled()) throw Error(ErrorCode::kCancelled, "cancelled");
+}
+
+void Progress::report(std::string_view stage, double fraction) const {
+  if (callback_) callback_(stage, fraction);
+  check();
+}
+
+}  // namespace morsel
