@@ -1,9 +1,11 @@
 # Debian 12 packages; scripts/install-dependencies.sh installs them.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.5 REQUIRED)
-find_package(TBB REQUIRED)
-find_package(Eigen3 REQUIRED)
+# CONFIG: CGAL brings find modules of its own for these two, which define no Eigen3::Eigen.
+find_package(TBB REQUIRED CONFIG)
+find_package(Eigen3 REQUIRED CONFIG)
 find_package(nanoflann REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)

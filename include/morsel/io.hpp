@@ -54,21 +54,28 @@ struct SurfaceSample {
 };
 
 /// True when `path` holds triangles or polygons (OFF, OBJ, STL, PLY with faces, glTF/GLB) rather
-/// than bare points. Looks into the file, not only at its name.
-/// Throws Error(kInput).
+/// than bare points. Decided by reading the whole file, not by its name, so a pipe is used up;
+/// false for `-`. Throws Error(kInput).
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);
 
 /// Reads the points of a point-cloud file: PLY, PCD, XYZ/TXT/PTS/CSV, OFF, OBJ, NPY, LAS 1.2-1.4.
-/// A mesh file is sampled as `sample` says. `-` reads XYZ text from standard input.
-/// Throws Error(kInput) with file, line or byte and what would be right.
+/// The content decides on the format, the extension only where the content leaves it open. A file
+/// with faces is sampled as `sample` says. `-` reads standard input, as XYZ text unless the content
+/// is unmistakably another format. Coordinates keep every bit of the file's numbers. No allocation
+/// exceeds a small multiple of the file's size (glTF may place a mesh many times: 20 million
+/// vertices). Thread-safe.
+/// Throws Error(kInput) with the file, the line, byte or point (from 0) and what would be right;
+/// Error(kUsage) for `sample` out of range; Error(kResource) when memory runs out.
 [[nodiscard]] PointCloud read_points(const std::filesystem::path& path,
                                      const SampleOptions& sample = {});
 
 /// Reads XYZ text (comments, one header line, extra columns, any of space, tab, comma, semicolon
-/// as separator) from a stream; `name` stands for the file in messages.
+/// as separator) from a stream; `name` stands for the file in messages. A header that names x, y
+/// and z says in which columns they are. Throws Error(kInput).
 [[nodiscard]] PointCloud read_xyz(std::istream& stream, const std::string& name);
 
-/// Reads a mesh. Throws Error(kInput), also when the file holds no face.
+/// Reads a mesh: OFF, OBJ, STL, PLY, glTF/GLB (nodes' transforms applied). Throws Error(kInput),
+/// also when the file holds no face.
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path);
 
 /// Area-weighted random samples of the surface. The same mesh, options and seed give the same

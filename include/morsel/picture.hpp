@@ -1,10 +1,10 @@
 // morsel: headless pictures of labelled points.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <morsel/color.hpp>
 #include <morsel/vec3.hpp>
 #include <span>
 #include <string>
@@ -12,14 +12,7 @@
 
 namespace morsel {
 
-/// An sRGB colour, 0 … 255 a channel.
-using Color = std::array<std::uint8_t, 3>;
-
-/// The colour of part `part` >= 0; colours of small indices differ for colour-blind people too.
-/// A negative part is grey. Repeats only after 24 parts.
-[[nodiscard]] Color part_color(int part);
-
-/// A picture in memory: rows from the top, 3 bytes a pixel.
+/// A picture in memory: rows from the top, 3 bytes (sRGB) a pixel, `rgb` of 3 * width * height.
 struct Image {
   std::size_t width = 0;
   std::size_t height = 0;
@@ -28,23 +21,38 @@ struct Image {
 
 struct PictureOptions {
   std::size_t width = 800;  ///< pixels of the whole picture, 64 … 8192
-  std::size_t views = 4;    ///< views of the object, 1 … 4, laid out in a grid
-  std::string title;        ///< drawn above the views when not empty
+  std::size_t views = 4;    ///< views of the object, 1 … 4: three quarters, other side, top, back
+  std::string title = {};   ///< drawn above the views when not empty; PNG shows ASCII only
+
   /// Throws Error(kUsage) that names field, value and range.
   void check() const;
 };
 
-/// Draws the points as shaded discs in their parts' colours. `labels` has one part per point.
-/// Cost: O(n log n). Throws Error(kUsage).
+/// Draws the points, (n, 3) in any unit and pose, as a closed shaded surface in their parts'
+/// colours on white. `labels` has one part per point; a negative one is grey. No mesh and no
+/// normals are needed; points that are not finite are left out. The object is stood upright and
+/// shown at one scale in all views; the height of the picture follows from the object, at most
+/// the width plus the title.
+/// The same bytes for any number of threads. Thread-safe. Cost: O(n log n).
+/// Throws Error(kUsage) for bad options or when the numbers of points and labels differ.
 [[nodiscard]] Image render_parts(std::span<const Vec3> points, std::span<const int> labels,
                                  const PictureOptions& options = {});
 
-/// Renders and writes `.png` or `.svg` (by extension), atomically.
-/// Throws Error(kUsage) for another extension, Error(kOutput).
+/// Renders and writes `.png` or `.svg` (by extension), atomically. The SVG is made of vector
+/// shapes and holds no picture.
+/// Throws Error(kUsage) for another extension and as render_parts, Error(kOutput).
 void write_picture(const std::filesystem::path& path, std::span<const Vec3> points,
                    std::span<const int> labels, const PictureOptions& options = {});
 
-/// Writes an image as PNG, atomically. Throws Error(kOutput).
+/// Writes an image as PNG, atomically. Throws Error(kUsage) for an image without pixels or with
+/// another number of bytes than its size says, Error(kOutput).
 void write_png(const std::filesystem::path& path, const Image& image);
+
+/// Sets pictures in rows of `columns` cells, each as large as the largest picture and centred in
+/// its cell, on white. `captions` go below the pictures: one each, or none at all.
+/// Cost: O(pixels of the sheet). Throws Error(kUsage) when `columns` is 0, the numbers of cells
+/// and captions differ, or an image's bytes do not match its size.
+[[nodiscard]] Image make_sheet(std::span<const Image> cells, std::span<const std::string> captions,
+                               std::size_t columns);
 
 }  // namespace morsel

@@ -1,0 +1,39 @@
+# The two commands of the README are `make demo` and `make test`; each installs what it needs.
+.DEFAULT_GOAL := help
+.PHONY: help demo test bench lint docs format install clean
+export INPUT ARGS
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
+
+help:  ## List the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+
+demo:  ## Segment example scans, or INPUT=scan.ply [ARGS="--parts 5"]; results in out/
+	@scripts/demo.sh
+
+test:  ## Build and run every test, the sanitizers and the lint checks
+	@scripts/test.sh
+
+bench:  ## Run the benchmarks: ARGS="segmentation --help"
+	@scripts/install-dependencies.sh
+	@cmake --preset release
+	@cmake --build --preset release --target morsel_bench
+	@build/release/apps/morsel-bench/morsel-bench $(or $(ARGS),--help)
+
+lint:  ## Check formatting, layers, shell scripts and clang-tidy
+	@scripts/lint.sh
+
+format:  ## Format all C++ files in place
+	@scripts/install-dependencies.sh --lint
+	@scripts/format.sh
+
+docs:  ## Build the API reference: build/docs/html/index.html
+	@scripts/docs.sh
+
+install:  ## Build and install the program and the library to PREFIX (default /usr/local)
+	@scripts/install-dependencies.sh
+	@cmake --preset release
+	@cmake --build --preset release --target morsel morsel_cli
+	@cmake --install build/release --prefix "$(or $(PREFIX),/usr/local)"
+
+clean:  ## Remove everything that was built or written
+	@rm -rf build out

@@ -1,0 +1,12 @@
+// morsel-bench: the subcommands; each adds itself to the program.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace morsel::bench {
+
+void add_interior(CLI::App& app);
+void add_segmentation(CLI::App& app);
+void add_time(CLI::App& app);
+
+}  // namespace morsel::bench

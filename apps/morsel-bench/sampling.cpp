@@ -1,0 +1,104 @@
+#include "sampling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <morsel/error.hpp>
+#include <utility>
+
+#include "base/random.hpp"
+#include "nearest.hpp"
+
+namespace morsel::bench {
+namespace {
+
+// Sets the outliers apart from the samples, which stay the same for every share of outliers.
+constexpr std::uint64_t kOutlierStream = 0x6f75746c696572ULL;
+
+// Grown by half of itself about its middle.
+std::pair<Vec3, Vec3> grown_box(std::span<const Vec3> points) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 low{kInfinity, kInfinity, kInfinity};
+  Vec3 high = -1.0 * low;
+  for (const Vec3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 margin = 0.25 * (high - low);
+  return {low - margin, high + margin};
+}
+
+void add_outliers(Cloud& cloud, const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
+  const auto [low, high] = grown_box(mesh.vertices);
+  const Vec3 size = high - low;
+  Random random(seed ^ kOutlierStream);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = low.x + random.uniform() * size.x;
+    const double y = low.y + random.uniform() * size.y;
+    const double z = low.z + random.uniform() * size.z;
+    cloud.points.push_back({x, y, z});
+  }
+}
+
+Vec3 centroid(const TriangleMesh& mesh, std::size_t face) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  return (1.0 / 3.0) * (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]);
+}
+
+}  // namespace
+
+void CloudOptions::check() const {
+  SampleOptions{.count = points, .noise = noise, .seed = seed}.check();
+  if (!(outliers >= 0.0 && outliers <= 1.0)) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("CloudOptions.outliers is {}; expected 0 to 1", outliers));
+  }
+}
+
+std::uint64_t seed_of_model(std::uint64_t seed, int id) {
+  return Random(seed ^ (static_cast<std::uint64_t>(id) * 0x9e3779b97f4a7c15ULL)).next();
+}
+
+Cloud sample_cloud(const TriangleMesh& mesh, int id, const CloudOptions& options) {
+  options.check();
+  const std::uint64_t seed = seed_of_model(options.seed, id);
+  SurfaceSample sample =
+      sample_surface(mesh, {.count = options.points, .noise = options.noise, .seed = seed});
+  Cloud cloud{.points = std::move(sample.points), .triangle = std::move(sample.triangle)};
+  const double outliers = std::round(options.outliers * static_cast<double>(options.points));
+  add_outliers(cloud, mesh, static_cast<std::size_t>(outliers), seed);
+  return cloud;
+}
+
+std::vector<int> face_labels(const TriangleMesh& mesh, const Cloud& cloud,
+                             std::span<const int> labels) {
+  std::vector<std::pair<std::uint32_t, int>> votes;
+  votes.reserve(cloud.sample_count());
+  for (std::size_t i = 0; i < cloud.sample_count(); ++i) {
+    votes.emplace_back(cloud.triangle[i], labels[i]);
+  }
+  std::sort(votes.begin(), votes.end());
+
+  std::vector<int> result(mesh.triangles.size(), 0);
+  std::vector<std::size_t> most(mesh.triangles.size(), 0);
+  for (std::size_t begin = 0; begin < votes.size();) {
+    std::size_t end = begin;
+    while (end < votes.size() && votes[end] == votes[begin]) ++end;
+    const auto& [face, label] = votes[begin];
+    if (end - begin > most[face]) {
+      most[face] = end - begin;
+      result[face] = label;
+    }
+    begin = end;
+  }
+
+  const NearestPoint nearest(std::span(cloud.points).first(cloud.sample_count()));
+  for (std::size_t face = 0; face < result.size(); ++face) {
+    if (most[face] == 0) result[face] = labels[nearest.find(centroid(mesh, face)).index];
+  }
+  return result;
+}
+
+}  // namespace morsel::bench

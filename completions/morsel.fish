@@ -1,0 +1,22 @@
+# fish completion for morsel.
+set -l none '__fish_use_subcommand'
+set -l segment '__fish_seen_subcommand_from segment'
+
+complete -c morsel -f -n $none -a segment -d 'Cut a shape into its parts'
+complete -c morsel -f -n $none -l version -d 'Show the version'
+complete -c morsel -f -s h -l help -d 'Show the options'
+
+complete -c morsel -n $segment -r -F -l labels -d 'Part of each input point, one a line'
+complete -c morsel -n $segment -r -F -s o -l output -d 'Coloured points: .ply .pcd .xyz .npz'
+complete -c morsel -n $segment -r -F -l report -d 'Everything that was measured: .json'
+complete -c morsel -n $segment -r -F -l picture -d 'Drawing of the parts: .png .svg'
+complete -c morsel -n $segment -x -l parts -d 'This many parts'
+complete -c morsel -n $segment -x -l merge-ratio -d 'Merge parts below this ratio'
+complete -c morsel -n $segment -x -l method -a 'default paper' -d 'Robust rules, or the paper'
+complete -c morsel -n $segment -x -l big-ball-ratio -d 'Paper: what makes a ball big'
+complete -c morsel -n $segment -x -l deep-angle -d 'Paper: what makes balls meet deeply'
+complete -c morsel -n $segment -x -l denoise -a 'auto off 1 2 3' -d 'Rounds of smoothing'
+complete -c morsel -n $segment -x -l threads -d '0 for all cores'
+complete -c morsel -n $segment -x -l sample -d 'Points on the surface of a mesh'
+complete -c morsel -n $segment -x -l noise -d 'Added to a sampled mesh'
+complete -c morsel -n $segment -x -l seed -d 'Of the random numbers'

@@ -1,0 +1,17 @@
+// morsel: the colours of the parts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace morsel {
+
+/// An sRGB colour, 0 … 255 a channel.
+using Color = std::array<std::uint8_t, 3>;
+
+/// The colour of part `part` >= 0; colours of small indices differ for colour-blind people too.
+/// A negative part is grey. Repeats only after 24 parts. Thread-safe, O(1).
+/// Source: M. Okabe, K. Ito, "Color Universal Design", 2008 (the first seven colours).
+[[nodiscard]] Color part_color(int part) noexcept;
+
+}  // namespace morsel

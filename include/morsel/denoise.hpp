@@ -1,0 +1,45 @@
+// morsel: outliers set apart, noise measured and, where it pays, smoothed away before triangulating.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <morsel/progress.hpp>
+#include <morsel/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace morsel {
+
+/// How to treat noise.
+struct DenoiseOptions {
+  /// Rounds of smoothing, 0 … 20. Not given: the noise is estimated and the program decides.
+  /// Outliers are set apart in any case.
+  std::optional<int> rounds;
+  int threads = 0;  ///< 0: all cores. The result does not depend on it.
+
+  /// Throws Error(kUsage) that names field, value and range.
+  void check() const;
+};
+
+/// The points that go on to the triangulation.
+struct Denoised {
+  std::vector<Vec3> points;             ///< (m, 3) distinct, in canonical order, outliers left out,
+                                        ///< moved where smoothing moved them
+  std::vector<std::uint32_t> stand_in;  ///< (n) index into `points` for each input point: its own,
+                                        ///< for an outlier that of the nearest point kept
+  double noise = 0.0;    ///< estimated standard deviation across the surface, in units
+  double spacing = 0.0;  ///< median distance to the twelfth nearest neighbour, in units
+  int rounds = 0;        ///< of smoothing that were done
+  std::size_t outlier_count = 0;  ///< input points that were set apart
+};
+
+/// Sets apart points far from all others, estimates the noise from how far points lie off the
+/// planes through their neighbours, and projects each point onto its local plane when the noise is
+/// large against the spacing.
+/// Throws Error(kInput) for a coordinate that is not finite, Error(kCancelled).
+/// Cost: O(n log n); independent of the order of the points and of the number of threads.
+[[nodiscard]] Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options = {},
+                               const Progress* progress = nullptr);
+
+}  // namespace morsel

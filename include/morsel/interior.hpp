@@ -1,0 +1,56 @@
+// morsel: which cells of the triangulation fill the shape.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <morsel/delaunay.hpp>
+#include <string>
+#include <vector>
+
+namespace morsel {
+
+/// The published rules or the default ones; a preset of the same stages.
+enum class Method : std::uint8_t { kDefault, kPaper };
+
+/// Where a cell lies.
+enum class CellSide : std::uint8_t {
+  kOpen,   ///< not decided: its ball is too small to tell (paper: "not big")
+  kOuter,  ///< outside the shape
+  kInner,  ///< inside the shape
+};
+
+struct InteriorOptions {
+  Method method = Method::kDefault;
+  /// Paper: ρ, a ball is big when its radius exceeds ρ·λ of any of its corners; > 0.
+  double big_ball_ratio = 0.5;
+  /// Paper: balls meet deeply when the angle between the directions to their centres is below this,
+  /// in degrees, 0 … 180. Not published; docs/paper-parameters.md says what other values do.
+  double deep_angle = 60.0;
+
+  /// Throws Error(kUsage) that names field, value and range.
+  void check() const;
+};
+
+/// One side per cell, and what the labelling saw.
+struct Interior {
+  std::vector<CellSide> side;   ///< (c)
+  std::size_t inner_cells = 0;
+  std::size_t outer_cells = 0;
+  double volume = 0.0;          ///< of the inner cells, in cubed units
+};
+
+/// Labels each cell inner, outer or open. `lambda` is mean_neighbor_distance of the vertices.
+///
+/// Method::kPaper walks from the unbounded balls through adjacent big balls that meet deeply; what
+/// it reaches is outer, the other big balls are inner.
+/// Source: Dey, Giesen, Goswami 2004, section 2.
+///
+/// Method::kDefault walks so with strict thresholds, which leaves two kinds of seeds, and floods
+/// from both over the remaining cells, strongest connection first.
+/// Differs: bigness is measured against the largest λ of a cell's corners, and no threshold decides
+/// the cells between the seeds. Cost: O(c log c).
+[[nodiscard]] Interior find_interior(const DelaunayComplex& complex,
+                                     const std::vector<double>& lambda,
+                                     const InteriorOptions& options = {});
+
+}  // namespace morsel

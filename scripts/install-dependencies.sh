@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that morsel needs and this machine lacks. Instant and offline
+# when nothing is missing.
+#   scripts/install-dependencies.sh          what building, the tests and the demo need
+#   scripts/install-dependencies.sh --lint   also what `make lint` and `make test` need
+#   scripts/install-dependencies.sh --dev    also what every other target needs
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build ccache pkg-config python3
+  libcgal-dev libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev
+  libassimp-dev liblzf-dev libnanoflann-dev zlib1g-dev libgtest-dev
+)
+lint=(clang-format clang-tidy-16 shellcheck) # 14, the default, cannot parse <ranges>
+case "${1:-}" in
+  "") ;;
+  --lint) packages+=("${lint[@]}") ;;
+  --dev) packages+=("${lint[@]}" doxygen) ;;
+  *)
+    echo "usage: $0 [--lint|--dev]" >&2
+    exit 2
+    ;;
+esac
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "$0: needs Debian 12 or a relative of it; elsewhere install these by hand:" >&2
+  echo "  ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null) || true
+  grep -qx installed <<<"$status" || missing+=("$package")
+done
+[[ ${#missing[@]} -eq 0 ]] && exit 0
+
+root=()
+if [[ $EUID -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "$0: not root and no sudo; have an administrator run:" >&2
+    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  root=(sudo)
+fi
+
+install() {
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install --yes --quiet --no-install-recommends "${missing[@]}"
+}
+
+echo "Installing Debian packages: ${missing[*]}"
+# The package lists are brought up to date only when those at hand are absent or too old.
+install || { "${root[@]}" apt-get update --quiet && install; }

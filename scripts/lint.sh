@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Layout, layers, shell scripts and clang-tidy; all findings are errors. Reads the compile commands
+# of the release build, which need not be compiled.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install-dependencies.sh --lint
+
+echo "clang-format"
+scripts/format.sh --check
+
+echo "layers"
+python3 tests/check_layers.py
+
+echo "shellcheck"
+find scripts .ci tests -type f \( -name '*.sh' -o -path '.ci/run' \) -print0 | xargs -0 shellcheck
+
+echo "clang-tidy"
+cmake --preset release >/dev/null
+scripts/tidy.py build/release

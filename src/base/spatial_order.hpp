@@ -1,0 +1,21 @@
+// A canonical order of points that depends on their coordinates alone and keeps neighbours close.
+#pragma once
+
+#include <cstdint>
+#include <morsel/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace morsel {
+
+/// The distinct points in canonical order and where each input point went.
+struct SpatialOrder {
+  std::vector<Vec3> points;                    ///< (v, 3) distinct, along a Morton curve
+  std::vector<std::uint32_t> order_of_point;   ///< (n) index into `points` of each input point
+};
+
+/// Sorts by Morton code of the bounding cube, ties by coordinates; repeated points are kept once.
+/// -0.0 counts as 0.0. Coordinates must be finite; n < 2^31. Cost: O(n log n).
+[[nodiscard]] SpatialOrder sort_spatially(std::span<const Vec3> points);
+
+}  // namespace morsel

@@ -1,0 +1,37 @@
+// Runs a stage with a given number of threads.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cstddef>
+
+namespace morsel {
+
+/// 0 becomes the number of cores that this process may use.
+inline int resolve_threads(int threads) {
+  return threads > 0 ? threads : tbb::info::default_concurrency();
+}
+
+/// Calls body(begin, end) over disjoint ranges that cover [0, count), on at most `threads` threads.
+/// The caller keeps results independent of how the range is split.
+template <typename Body>
+void parallel_ranges(std::size_t count, int threads, const Body& body) {
+  constexpr std::size_t kGrain = 2048;
+  threads = resolve_threads(threads);
+  if (threads == 1 || count <= kGrain) {
+    if (count > 0) body(std::size_t{0}, count);
+    return;
+  }
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        body(range.begin(), range.end());
+                      });
+  });
+}
+
+}  // namespace morsel

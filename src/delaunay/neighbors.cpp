@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <morsel/delaunay.hpp>
+
+#include "base/threads.hpp"
+
+namespace morsel {
+namespace {
+
+// The nearest vertices found so far, nearest first; ties go to the smaller index.
+struct Nearest {
+  struct Entry {
+    double squared = std::numeric_limits<double>::infinity();
+    std::uint32_t vertex = 0xffffffffU;
+    friend auto operator<=>(const Entry&, const Entry&) = default;
+  };
+  std::array<Entry, 3> entries;
+
+  void offer(double squared, std::uint32_t vertex) {
+    const Entry entry{squared, vertex};
+    if (!(entry < entries[2])) return;
+    if (vertex == entries[0].vertex || vertex == entries[1].vertex) return;
+    entries[2] = entry;
+    if (entries[2] < entries[1]) std::swap(entries[2], entries[1]);
+    if (entries[1] < entries[0]) std::swap(entries[1], entries[0]);
+  }
+};
+
+}  // namespace
+
+double cell_volume(const DelaunayComplex& complex, std::size_t cell) {
+  const auto& [i, j, k, l] = complex.cells[cell];
+  const Vec3& p = complex.vertices[i];
+  return dot(complex.vertices[j] - p,
+             cross(complex.vertices[k] - p, complex.vertices[l] - p)) / 6.0;
+}
+
+VertexCells find_vertex_cells(const DelaunayComplex& complex) {
+  VertexCells result;
+  result.offsets.assign(complex.vertices.size() + 2, 0);
+  for (const auto& cell : complex.cells) {
+    for (const std::uint32_t v : cell) ++result.offsets[v + 2];
+  }
+  for (std::size_t v = 2; v < result.offsets.size(); ++v) {
+    result.offsets[v] += result.offsets[v - 1];
+  }
+  // offsets[v + 1] now is the begin of v and becomes its end while the cells are filled in.
+  result.cells.resize(4 * complex.cells.size());
+  for (std::size_t c = 0; c < complex.cells.size(); ++c) {
+    for (const std::uint32_t v : complex.cells[c]) {
+      result.cells[result.offsets[v + 1]++] = static_cast<std::uint32_t>(c);
+    }
+  }
+  result.offsets.pop_back();
+  return result;
+}
+
+std::vector<double> mean_neighbor_distance(const DelaunayComplex& complex,
+                                           const VertexCells& vertex_cells, int threads) {
+  std::vector<double> lambda(complex.vertices.size(), 0.0);
+  const auto offer_star = [&](std::uint32_t of, std::uint32_t center, Nearest& nearest) {
+    for (const std::uint32_t c : vertex_cells.of(center)) {
+      for (const std::uint32_t v : complex.cells[c]) {
+        if (v != of) nearest.offer(squared_distance(complex.vertices[of], complex.vertices[v]), v);
+      }
+    }
+  };
+  parallel_ranges(lambda.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto p = static_cast<std::uint32_t>(i);
+      Nearest nearest;
+      offer_star(p, p, nearest);
+      // entries[0] is final after the own star, entries[1] after the star of entries[0], …
+      for (int k = 0; k < 2; ++k) {
+        if (nearest.entries[k].vertex != 0xffffffffU) {
+          offer_star(p, nearest.entries[k].vertex, nearest);
+        }
+      }
+      double sum = 0.0;
+      int count = 0;
+      for (const auto& entry : nearest.entries) {
+        if (entry.vertex == 0xffffffffU) break;
+        sum += std::sqrt(entry.squared);
+        ++count;
+      }
+      if (count > 0) lambda[i] = sum / count;
+    }
+  });
+  return lambda;
+}
+
+}  // namespace morsel

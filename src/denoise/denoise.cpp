@@ -1,0 +1,197 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <morsel/denoise.hpp>
+#include <morsel/error.hpp>
+#include <string>
+
+#include "base/spatial_order.hpp"
+#include "base/threads.hpp"
+#include "denoise/neighborhoods.hpp"
+
+namespace morsel {
+namespace {
+
+// Planes through so few points follow thin walls; 24 already eat them.
+static const std::size_t kNeighbors = getenv("NN") ? atoi(getenv("NN")) : 12;
+static const int kRounds = getenv("NR") ? atoi(getenv("NR")) : 2;
+// Noise above this share of the distance to the twelfth neighbour is smoothed. Clean samples of the
+// development shapes stay below 0.041 even at 5,000 points, 20,000 points with noise of 0.1% of the
+// diagonal reach 0.06.
+constexpr double kNoisyShare = 0.05;
+
+void check_points(std::span<const Vec3> points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& p = points[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw Error(ErrorCode::kInput, "point " + std::to_string(i) +
+                                         " is not finite; remove it or mend its coordinates");
+    }
+  }
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Points whose neighbours are several times farther away than those of the cloud at large, or than
+// their own neighbours' neighbours.
+std::vector<bool> find_outliers(const Neighborhoods& neighborhoods, int threads) {
+  static const double kFromCloud = getenv("KC") ? atof(getenv("KC")) : 3.0;
+  static const double kFromNeighbors = getenv("KN") ? atof(getenv("KN")) : 1.6;
+  const std::vector<double>& reach = neighborhoods.reach;
+  const double far = kFromCloud * quantile(reach, 0.9);
+  std::vector<char> is_outlier(reach.size(), 0);
+  parallel_ranges(reach.size(), threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> around(neighborhoods.size);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto neighbors = neighborhoods.of(i);
+      std::ranges::transform(neighbors, around.begin(), [&](std::uint32_t j) { return reach[j]; });
+      is_outlier[i] = reach[i] > far || reach[i] > kFromNeighbors * quantile(around, 0.5) ? 1 : 0;
+    }
+  });
+  return {is_outlier.begin(), is_outlier.end()};
+}
+
+// The plane through a point's neighbourhood, the point itself included.
+struct Plane {
+  Vec3 origin;
+  Vec3 normal;      // unit
+  double residual;  // root mean square distance of the points from the plane
+};
+
+Plane fit_plane(std::span<const Vec3> points, std::size_t center,
+                std::span<const std::uint32_t> neighbors) {
+  const Vec3& reference = points[center];
+  Vec3 sum;
+  for (const std::uint32_t j : neighbors) sum = sum + (points[j] - reference);
+  const auto count = static_cast<double>(neighbors.size() + 1);
+  const Vec3 mean = (1.0 / count) * sum;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  const auto add = [&](const Vec3& offset) {
+    const Eigen::Vector3d d(offset.x, offset.y, offset.z);
+    covariance.noalias() += d * d.transpose();
+  };
+  add(-1.0 * mean);
+  for (const std::uint32_t j : neighbors) add(points[j] - reference - mean);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance);
+  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  return {reference + mean,
+          {normal.x(), normal.y(), normal.z()},
+          std::sqrt(std::max(solver.eigenvalues()[0], 0.0) / count)};
+}
+
+std::vector<Plane> fit_planes(std::span<const Vec3> points, const Neighborhoods& neighborhoods,
+                              int threads) {
+  std::vector<Plane> planes(points.size());
+  parallel_ranges(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      planes[i] = fit_plane(points, i, neighborhoods.of(i));
+    }
+  });
+  return planes;
+}
+
+void project(const std::vector<Plane>& planes, std::vector<Vec3>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = points[i] - dot(points[i] - planes[i].origin, planes[i].normal) * planes[i].normal;
+  }
+}
+
+// The residuals of planes mix noise with curvature; the flattest fifth of the cloud holds little of
+// the latter.
+double estimate_noise(const std::vector<Plane>& planes) {
+  std::vector<double> residuals(planes.size());
+  std::ranges::transform(planes, residuals.begin(), &Plane::residual);
+  return quantile(std::move(residuals), 0.2);
+}
+
+// Keeps the entries of `points` that are no outliers.
+std::vector<Vec3> select(const std::vector<Vec3>& points, const std::vector<bool>& drop) {
+  std::vector<Vec3> kept;
+  kept.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!drop[i]) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+// The cloud in canonical order without its outliers, and where each input point stands in it.
+struct Cleaned {
+  std::vector<Vec3> points;
+  std::vector<std::uint32_t> stand_in;  // (n) index into points
+  std::vector<bool> is_outlier;         // (n)
+};
+
+Cleaned drop_outliers(std::span<const Vec3> input, int threads) {
+  SpatialOrder order = sort_spatially(input);
+  const std::vector<bool> drop =
+      find_outliers(find_neighborhoods(order.points, kNeighbors, threads), threads);
+  Cleaned cleaned;
+  cleaned.points = select(order.points, drop);
+  std::vector<std::uint32_t> target(order.points.size());
+  std::vector<Vec3> lonely;
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < order.points.size(); ++i) {
+    if (drop[i]) {
+      lonely.push_back(order.points[i]);
+    } else {
+      target[i] = next++;
+    }
+  }
+  const std::vector<std::uint32_t> nearest = find_nearest(cleaned.points, lonely, threads);
+  for (std::size_t i = 0, k = 0; i < order.points.size(); ++i) {
+    if (drop[i]) target[i] = nearest[k++];
+  }
+  for (const std::uint32_t i : order.order_of_point) {
+    cleaned.stand_in.push_back(target[i]);
+    cleaned.is_outlier.push_back(drop[i]);
+  }
+  return cleaned;
+}
+
+}  // namespace
+
+void DenoiseOptions::check() const {
+  if (rounds && (*rounds < 0 || *rounds > 20)) {
+    throw Error(ErrorCode::kUsage, "denoise rounds are " + std::to_string(*rounds) +
+                                       "; they must be 0 to 20, or auto");
+  }
+}
+
+Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
+                 const Progress* progress) {
+  options.check();
+  check_points(points);
+  Denoised result;
+  Cleaned cleaned = drop_outliers(points, options.threads);
+  result.points = std::move(cleaned.points);
+  result.stand_in = std::move(cleaned.stand_in);
+  result.outlier_count =
+      static_cast<std::size_t>(std::ranges::count(cleaned.is_outlier, true));
+  if (result.points.size() <= kNeighbors) return result;
+  if (progress != nullptr) progress->check();
+
+  Neighborhoods neighborhoods = find_neighborhoods(result.points, kNeighbors, options.threads);
+  std::vector<Plane> planes = fit_planes(result.points, neighborhoods, options.threads);
+  result.noise = estimate_noise(planes);
+  result.spacing = quantile(neighborhoods.reach, 0.5);
+  const bool noisy = result.noise > kNoisyShare * result.spacing;
+  result.rounds = options.rounds.value_or(noisy ? kRounds : 0);
+  for (int round = 0; round < result.rounds; ++round) {
+    if (round > 0) {
+      if (progress != nullptr) progress->check();
+      neighborhoods = find_neighborhoods(result.points, kNeighbors, options.threads);
+      planes = fit_planes(result.points, neighborhoods, options.threads);
+    }
+    project(planes, result.points);
+  }
+  return result;
+}
+
+}  // namespace morsel

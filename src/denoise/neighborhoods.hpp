@@ -1,0 +1,31 @@
+// The nearest neighbours of every point of a raw cloud, before there is a triangulation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <morsel/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace morsel {
+
+/// For each point its `size` nearest other points, nearest first, and how far they are.
+struct Neighborhoods {
+  std::size_t size = 0;                ///< k, fewer than asked when there are not enough points
+  std::vector<std::uint32_t> indices;  ///< (n, k)
+  std::vector<double> reach;           ///< (n) distance to the last of them, in units
+
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t point) const {
+    return std::span(indices).subspan(point * size, size);
+  }
+};
+
+/// `points` are distinct. Cost: O(n log n).
+[[nodiscard]] Neighborhoods find_neighborhoods(std::span<const Vec3> points, std::size_t size,
+                                               int threads);
+
+/// For each query the index of the nearest of `points`, which is not empty.
+[[nodiscard]] std::vector<std::uint32_t> find_nearest(std::span<const Vec3> points,
+                                                      std::span<const Vec3> queries, int threads);
+
+}  // namespace morsel

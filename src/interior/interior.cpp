@@ -1,0 +1,179 @@
+// Source: T. K. Dey, J. Giesen, S. Goswami, "Shape Segmentation and Matching from Noisy Point
+// Clouds", SPBG 2004, section 2.
+
+#include <algorithm>
+#include <cmath>
+#include <morsel/error.hpp>
+#include <morsel/interior.hpp>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "delaunay/balls.hpp"
+
+namespace morsel {
+namespace {
+
+// A walk through balls that meet deeply, from the unbounded ones; marks what it reaches as outer.
+// `may_enter(cell)` says whether a ball is big enough.
+template <typename MayEnter>
+void walk_from_outside(const DelaunayComplex& complex, double min_cosine, const MayEnter& may_enter,
+                       std::vector<CellSide>& side) {
+  std::vector<std::uint32_t> stack;
+  const auto enter = [&](std::uint32_t cell) {
+    side[cell] = CellSide::kOuter;
+    stack.push_back(cell);
+  };
+  for (std::uint32_t c = 0; c < complex.cells.size(); ++c) {
+    for (int i = 0; i < 4 && side[c] == CellSide::kOpen; ++i) {
+      if (complex.neighbors[c][i] == kNoCell && may_enter(c) &&
+          cos_hull_angle(complex, c, i) > min_cosine) {
+        enter(c);
+      }
+    }
+  }
+  while (!stack.empty()) {
+    const std::uint32_t c = stack.back();
+    stack.pop_back();
+    for (const std::uint32_t d : complex.neighbors[c]) {
+      if (d != kNoCell && side[d] == CellSide::kOpen && may_enter(d) &&
+          cos_ball_angle(complex, c, d) > min_cosine) {
+        enter(d);
+      }
+    }
+  }
+}
+
+std::vector<CellSide> label_as_published(const DelaunayComplex& complex,
+                                         const std::vector<double>& lambda,
+                                         const InteriorOptions& options) {
+  std::vector<CellSide> side(complex.cell_count(), CellSide::kOpen);
+  const auto is_big = [&](std::uint32_t cell) {
+    return std::ranges::any_of(complex.cells[cell], [&](std::uint32_t v) {
+      return complex.radii[cell] > options.big_ball_ratio * lambda[v];
+    });
+  };
+  walk_from_outside(complex, std::cos(options.deep_angle * std::numbers::pi / 180.0), is_big, side);
+  for (std::uint32_t c = 0; c < side.size(); ++c) {
+    if (side[c] == CellSide::kOpen && is_big(c)) side[c] = CellSide::kInner;
+  }
+  return side;
+}
+
+// A connection between two adjacent cells over which a label may flow.
+struct Bridge {
+  double strength;
+  std::uint32_t a;
+  std::uint32_t b;
+
+  // Strongest first; equal strengths by index, for the same result in every run.
+  friend bool operator<(const Bridge& x, const Bridge& y) {
+    if (x.strength != y.strength) return x.strength > y.strength;
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  }
+};
+
+class LabelForest {
+ public:
+  explicit LabelForest(std::vector<CellSide>& side) : side_(side), parent_(side.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+
+  std::uint32_t root(std::uint32_t c) {
+    while (parent_[c] != c) {
+      parent_[c] = parent_[parent_[c]];
+      c = parent_[c];
+    }
+    return c;
+  }
+
+  // Joins two trees unless they already carry different labels.
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    if (a == b) return;
+    if (side_[a] != CellSide::kOpen && side_[b] != CellSide::kOpen && side_[a] != side_[b]) return;
+    if (side_[a] == CellSide::kOpen) std::swap(a, b);
+    parent_[b] = a;
+  }
+
+ private:
+  std::vector<CellSide>& side_;
+  std::vector<std::uint32_t> parent_;
+};
+
+std::vector<double> ball_ratios(const DelaunayComplex& complex, const std::vector<double>& lambda) {
+  std::vector<double> ratio(complex.cell_count());
+  for (std::size_t c = 0; c < ratio.size(); ++c) {
+    const auto& [i, j, k, l] = complex.cells[c];
+    ratio[c] = complex.radii[c] / std::max({lambda[i], lambda[j], lambda[k], lambda[l]});
+  }
+  return ratio;
+}
+
+// Flooding from the seeds, strongest bridge first, first come first served, is growing a maximum
+// spanning forest with one kind of seed a tree; so the bridges are sorted once and joined.
+void flood(const DelaunayComplex& complex, const std::vector<double>& ratio,
+           std::vector<CellSide>& side) {
+  static const double kSmallest = getenv("KS") ? atof(getenv("KS")) : 0.0;
+  std::vector<Bridge> bridges;
+  for (std::uint32_t c = 0; c < side.size(); ++c) {
+    if (ratio[c] <= kSmallest) continue;
+    for (const std::uint32_t d : complex.neighbors[c]) {
+      if (d == kNoCell || d < c || ratio[d] <= kSmallest) continue;
+      if (side[c] != CellSide::kOpen && side[d] != CellSide::kOpen) continue;
+      const double depth = 1.0 + cos_ball_angle(complex, c, d);
+      bridges.push_back({std::min(ratio[c], ratio[d]) * depth, c, d});
+    }
+  }
+  std::sort(bridges.begin(), bridges.end());
+  LabelForest forest(side);
+  for (const Bridge& bridge : bridges) forest.join(bridge.a, bridge.b);
+  for (std::uint32_t c = 0; c < side.size(); ++c) side[c] = side[forest.root(c)];
+}
+
+std::vector<CellSide> label_by_flood(const DelaunayComplex& complex,
+                                     const std::vector<double>& lambda) {
+  // A ball this many times larger than its corners' spacing cannot come from noise or sampling.
+  constexpr double kSeedRatio = 4.0;
+  constexpr double kSeedCosine = 0.5;  // 60 degrees
+  std::vector<CellSide> side(complex.cell_count(), CellSide::kOpen);
+  const std::vector<double> ratio = ball_ratios(complex, lambda);
+  const auto is_seed = [&](std::uint32_t cell) { return ratio[cell] > kSeedRatio; };
+  walk_from_outside(complex, kSeedCosine, is_seed, side);
+  for (std::uint32_t c = 0; c < side.size(); ++c) {
+    if (side[c] == CellSide::kOpen && is_seed(c)) side[c] = CellSide::kInner;
+  }
+  flood(complex, ratio, side);
+  return side;
+}
+
+}  // namespace
+
+void InteriorOptions::check() const {
+  if (!(big_ball_ratio > 0.0)) {
+    throw Error(ErrorCode::kUsage,
+                "big_ball_ratio is " + std::to_string(big_ball_ratio) + "; it must be above 0");
+  }
+  if (!(deep_angle >= 0.0 && deep_angle <= 180.0)) {
+    throw Error(ErrorCode::kUsage, "deep_angle is " + std::to_string(deep_angle) +
+                                       "; it must be 0 to 180 degrees");
+  }
+}
+
+Interior find_interior(const DelaunayComplex& complex, const std::vector<double>& lambda,
+                       const InteriorOptions& options) {
+  options.check();
+  Interior interior;
+  interior.side = options.method == Method::kPaper ? label_as_published(complex, lambda, options)
+                                                   : label_by_flood(complex, lambda);
+  for (std::size_t c = 0; c < interior.side.size(); ++c) {
+    interior.outer_cells += interior.side[c] == CellSide::kOuter ? 1 : 0;
+    if (interior.side[c] != CellSide::kInner) continue;
+    ++interior.inner_cells;
+    interior.volume += cell_volume(complex, c);
+  }
+  return interior;
+}
+
+}  // namespace morsel

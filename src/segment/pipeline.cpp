@@ -1,0 +1,138 @@
+// The stages in a row: plain values go in, plain values come out.
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <morsel/morsel.hpp>
+#include <utility>
+
+namespace morsel {
+namespace {
+
+std::size_t peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+// Times the stages and tells the caller about them.
+class StageRunner {
+ public:
+  StageRunner(std::vector<StageCost>& costs, const Progress* progress)
+      : costs_(costs), progress_(progress) {}
+
+  // `fraction` of all work lies before this stage.
+  template <typename Work>
+  auto run(const char* stage, double fraction, const Work& work) {
+    if (progress_ != nullptr) progress_->report(stage, fraction);
+    const auto began = std::chrono::steady_clock::now();
+    auto result = work();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began;
+    costs_.push_back({stage, taken.count(), peak_bytes()});
+    return result;
+  }
+
+ private:
+  std::vector<StageCost>& costs_;
+  const Progress* progress_;
+};
+
+Denoised take_as_they_are(std::span<const Vec3> points) {
+  Denoised result;
+  result.points.assign(points.begin(), points.end());
+  result.stand_in.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    result.stand_in[i] = static_cast<std::uint32_t>(i);
+  }
+  return result;
+}
+
+// Below this share of the inner cells' number an inside is no solid but chance holes in a cloud.
+constexpr double kSmallestInside = 0.02;
+
+Verdict judge(const Segmentation& s) {
+  if (s.complex.vertices.size() < 4) return Verdict::kTooFewPoints;
+  if (s.complex.dimension < 3) return Verdict::kFlat;
+  const auto cells = static_cast<double>(s.complex.cell_count());
+  const bool inside = static_cast<double>(s.interior.inner_cells) > kSmallestInside * cells;
+  return inside && s.basins.count() > 0 ? Verdict::kSolid : Verdict::kNotSolid;
+}
+
+std::string describe(const Segmentation& s) {
+  switch (s.verdict) {
+    case Verdict::kSolid: {
+      const std::size_t parts = s.parts.parts.size();
+      const std::size_t objects = s.tree.component_count;
+      return std::to_string(parts) + (parts == 1 ? " part" : " parts") +
+             (objects > 1 ? " in " + std::to_string(objects) + " separate pieces." : ".");
+    }
+    case Verdict::kTooFewPoints:
+      return "The cloud has " + std::to_string(s.complex.vertices.size()) +
+             " distinct points; a solid needs at least four, a good sample thousands.";
+    case Verdict::kFlat:
+      return "All points lie on one plane or line; scan the object from all sides.";
+    case Verdict::kNotSolid:
+      return "No inside was found: the points bound no solid. Close large holes, scan the missing "
+             "side, or give more points where walls are thin.";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string version() { return MORSEL_VERSION; }
+
+void SegmentOptions::check() const {
+  interior.check();
+  denoise.check();
+  cut.check();
+}
+
+std::vector<int> point_labels(const Segmentation& segmentation, const Parts& parts) {
+  std::vector<int> labels;
+  labels.reserve(segmentation.denoised.stand_in.size());
+  for (const std::uint32_t i : segmentation.denoised.stand_in) {
+    labels.push_back(parts.part_of_point[i]);
+  }
+  return labels;
+}
+
+Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options,
+                     const Progress* progress) {
+  options.check();
+  const bool paper = options.interior.method == Method::kPaper;
+  Segmentation s;
+  StageRunner stages(s.costs, progress);
+  s.denoised = stages.run("denoise", 0.0, [&] {
+    DenoiseOptions denoise_options = options.denoise;
+    denoise_options.threads = options.threads;
+    return paper ? take_as_they_are(points) : denoise(points, denoise_options, progress);
+  });
+  s.complex = stages.run("triangulate", 0.2, [&] {
+    return triangulate(s.denoised.points, {options.threads}, progress);
+  });
+  const VertexCells vertex_cells = find_vertex_cells(s.complex);
+  const std::vector<double> lambda = stages.run("neighbors", 0.7, [&] {
+    return mean_neighbor_distance(s.complex, vertex_cells, options.threads);
+  });
+  s.interior = stages.run("interior", 0.75, [&] {
+    return find_interior(s.complex, lambda, options.interior);
+  });
+  s.basins = stages.run("basins", 0.85, [&] { return find_basins(s.complex, s.interior); });
+  s.verdict = judge(s);
+  if (s.verdict == Verdict::kSolid) {
+    s.tree = stages.run("merge", 0.9, [&] {
+      return build_merge_tree(s.complex, vertex_cells, lambda, s.basins,
+                              {options.interior.method});
+    });
+    s.parts = stages.run("cut", 0.99, [&] { return cut(s.tree, options.cut); });
+    s.labels = point_labels(s, s.parts);
+  } else {
+    s.labels.assign(points.size(), -1);
+  }
+  s.message = describe(s);
+  if (progress != nullptr) progress->report("done", 1.0);
+  return s;
+}
+
+}  // namespace morsel
