@@ -192,9 +192,12 @@ Summary summarize(const std::vector<Result>& results) {
   std::vector<double> seconds;
   for (const Result& result : results) {
     ids.push_back(result.id);
+    if (!result.error.empty()) {
+      ++summary.errors;
+      continue;
+    }
     seconds.push_back(result.seconds);
-    if (!result.error.empty()) ++summary.errors;
-    if (result.error.empty() && result.verdict != "solid") ++summary.not_solid;
+    if (result.verdict != "solid") ++summary.not_solid;
   }
   std::vector<Scores> scores;
   for (const auto& [category, members] : group_by_category(ids)) {

@@ -155,6 +155,7 @@ void add_outputs(CLI::App& app, Arguments& arguments) {
 
 // Refuses options that the chosen method would ignore, and notes those that a cloud would.
 void check_combinations(const CLI::App& app, Arguments& arguments) {
+  if (arguments.file.empty()) throw CLI::ValidationError("FILE", "the file name is empty");
   const bool paper = arguments.options.interior.method == Method::kPaper;
   for (const char* name : {"--big-ball-ratio", "--deep-angle"}) {
     if (!paper && app.count(name) > 0) {
@@ -271,6 +272,15 @@ void note_unused_options(const Arguments& arguments) {
                        fmt::join(arguments.mesh_options, ", "), name_of_input(arguments)));
 }
 
+// A count that the shape does not have must not pass as what was asked for.
+void note_other_count(const Arguments& arguments, const Segmentation& result) {
+  const std::size_t count = result.parts.parts.size();
+  const std::size_t asked = arguments.options.cut.parts.value_or(count);
+  if (asked == count) return;
+  complain(fmt::format("note: --parts {}: the shape can be cut into {} {} parts", asked,
+                       asked > count ? "at most" : "no fewer than", count));
+}
+
 int run_segment(const Arguments& arguments) {
   check_outputs(arguments.outputs(), arguments.file);
   note_unused_options(arguments);
@@ -281,6 +291,7 @@ int run_segment(const Arguments& arguments) {
   const bool solid = result.verdict == Verdict::kSolid;
   if (solid) {
     say(fmt::format("{}: {}\n", name_of_input(arguments), result.message));
+    note_other_count(arguments, result);
   } else {
     complain(fmt::format("{}: {}", name_of_input(arguments), result.message));
   }

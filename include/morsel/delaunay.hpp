@@ -20,17 +20,17 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffU;
 
 /// The finite part of a 3D Delaunay triangulation.
 ///
-/// Vertices are the distinct points in a canonical spatial order, cells are sorted by their smallest
-/// vertices: the same set of points gives the same arrays, whatever their order in the input and
-/// whatever the number of threads. Co-spherical points are triangulated by CGAL's symbolic
-/// perturbation, which depends on the coordinates alone.
+/// Vertices are the distinct points in a canonical spatial order, cells are sorted by their
+/// smallest vertices: the same set of points gives the same arrays, whatever their order in the
+/// input and whatever the number of threads. Co-spherical points are triangulated by CGAL's
+/// symbolic perturbation, which depends on the coordinates alone.
 struct DelaunayComplex {
-  std::vector<Vec3> vertices;                  ///< (v, 3), in the unit of the input
-  std::vector<std::uint32_t> vertex_of_point;  ///< (n), the vertex of each input point
+  std::vector<Vec3> vertices;                           ///< (v, 3), in the unit of the input
+  std::vector<std::uint32_t> vertex_of_point;           ///< (n), the vertex of each input point
   std::vector<std::array<std::uint32_t, 4>> cells;      ///< (c, 4) vertices, positively oriented
   std::vector<std::array<std::uint32_t, 4>> neighbors;  ///< (c, 4) the cell opposite each vertex
-  std::vector<Vec3> centers;                   ///< (c, 3) centres of the Delaunay balls
-  std::vector<double> radii;                   ///< (c) radii of the Delaunay balls
+  std::vector<Vec3> centers;                            ///< (c, 3) centres of the Delaunay balls
+  std::vector<double> radii;                            ///< (c) radii of the Delaunay balls
   int dimension = -1;  ///< of the points' affine hull, -1 (no point) … 3; below 3 there is no cell
 
   [[nodiscard]] std::size_t cell_count() const { return cells.size(); }
@@ -49,6 +49,9 @@ struct TriangulateOptions {
 
 /// Signed volume of a cell; positive for cells of a DelaunayComplex up to rounding.
 [[nodiscard]] double cell_volume(const DelaunayComplex& complex, std::size_t cell);
+
+/// Mean of a cell's four vertices.
+[[nodiscard]] Vec3 cell_centroid(const DelaunayComplex& complex, std::size_t cell);
 
 /// Which cells meet at each vertex: those of vertex v are cells[offsets[v] … offsets[v + 1]).
 struct VertexCells {

@@ -1,4 +1,5 @@
-// morsel: outliers set apart, noise measured and, where it pays, smoothed away before triangulating.
+// morsel: outliers set apart, noise measured and, where it pays, smoothed away before
+// triangulating.
 #pragma once
 
 #include <cstddef>
@@ -28,9 +29,9 @@ struct Denoised {
                                         ///< moved where smoothing moved them
   std::vector<std::uint32_t> stand_in;  ///< (n) index into `points` for each input point: its own,
                                         ///< for an outlier that of the nearest point kept
-  double noise = 0.0;    ///< estimated standard deviation across the surface, in units
-  double spacing = 0.0;  ///< median distance to the twelfth nearest neighbour, in units
-  int rounds = 0;        ///< of smoothing that were done
+  double noise = 0.0;             ///< estimated standard deviation across the surface, in units
+  double spacing = 0.0;           ///< median distance to the twelfth nearest neighbour, in units
+  int rounds = 0;                 ///< of smoothing that were done
   std::size_t outlier_count = 0;  ///< input points that were set apart
 };
 

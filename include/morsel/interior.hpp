@@ -33,10 +33,10 @@ struct InteriorOptions {
 
 /// One side per cell, and what the labelling saw.
 struct Interior {
-  std::vector<CellSide> side;   ///< (c)
+  std::vector<CellSide> side;  ///< (c)
   std::size_t inner_cells = 0;
   std::size_t outer_cells = 0;
-  double volume = 0.0;          ///< of the inner cells, in cubed units
+  double volume = 0.0;  ///< of the inner cells, in cubed units
 };
 
 /// Labels each cell inner, outer or open. `lambda` is mean_neighbor_distance of the vertices.

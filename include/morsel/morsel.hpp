@@ -21,6 +21,7 @@ namespace morsel {
 /// The library's version, "major.minor.patch".
 [[nodiscard]] std::string version();
 
+/// What a user may choose; the defaults serve every shape.
 struct SegmentOptions {
   InteriorOptions interior;  ///< holds the method, the paper's or the default, of all stages
   DenoiseOptions denoise;    ///< not used by Method::kPaper, which takes the points as they are
@@ -33,10 +34,10 @@ struct SegmentOptions {
 
 /// What the cloud turned out to be.
 enum class Verdict {
-  kSolid,          ///< one or more solids; there are parts
-  kTooFewPoints,   ///< fewer than four distinct points
-  kFlat,           ///< all points on one plane or line
-  kNotSolid,       ///< no inside was found: an open sheet, or noise that fills its walls
+  kSolid,         ///< one or more solids; there are parts
+  kTooFewPoints,  ///< fewer than four distinct points
+  kFlat,          ///< all points on one plane or line
+  kNotSolid,      ///< no inside was found: an open sheet, or noise that fills its walls
 };
 
 /// What one stage cost.
@@ -49,7 +50,7 @@ struct StageCost {
 /// Everything that segment() found, stage by stage.
 struct Segmentation {
   Verdict verdict = Verdict::kTooFewPoints;
-  std::string message;  ///< one sentence: what was found and, unless solid, what to do
+  std::string message;      ///< one sentence: what was found and, unless solid, what to do
   std::vector<int> labels;  ///< (n) part of each input point, in input order; -1 unless solid
   Parts parts;
   MergeTree tree;
@@ -61,13 +62,13 @@ struct Segmentation {
 };
 
 /// denoise → triangulate → find_interior → find_basins → build_merge_tree → cut.
-/// Geometric outcomes are in `verdict`; throws Error(kUsage), Error(kInput) for a coordinate that is
-/// not finite, Error(kCancelled).
-/// Cost: O(n log n), about 1 kB a point. Safe to call from several threads.
+/// Geometric outcomes are in `verdict`; throws Error(kUsage), Error(kInput) for a coordinate that
+/// is not finite, Error(kCancelled). Cost: O(n log n), about 1 kB a point. Safe to call from
+/// several threads.
 [[nodiscard]] Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options = {},
                                    const Progress* progress = nullptr);
 
-/// Labels of another cut for the input points of `segmentation`; needs no geometry. Cost: O(b + n).
+/// Labels of another cut for the input points of `segmentation`; needs no geometry. Cost: O(p + n).
 [[nodiscard]] std::vector<int> point_labels(const Segmentation& segmentation, const Parts& parts);
 
 /// The report as JSON text: version, options, counts of every stage, parts, merge levels, costs.

@@ -33,21 +33,21 @@ struct Basins {
 
 /// Volume and its first and second moments: what a part is, as far as sums can tell.
 struct Moments {
-  double volume = 0.0;              ///< in cubed units
-  Vec3 first;                       ///< ∫ x dV
-  std::array<double, 6> second{};   ///< ∫ x xᵀ dV about the origin: xx, xy, xz, yy, yz, zz
+  double volume = 0.0;             ///< in cubed units
+  Vec3 first;                      ///< ∫ x dV
+  std::array<double, 6> second{};  ///< ∫ x xᵀ dV about the origin: xx, xy, xz, yy, yz, zz
 
   Moments& operator+=(const Moments& other);
 };
 
-/// Where two basins touch.
+/// Where two pieces touch.
 struct Neck {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   double radius = 0.0;  ///< largest circumradius over the shared facets
 };
 
-/// One step of the single linkage of basins.
+/// One step of joining pieces.
 struct Merge {
   double ratio = 1.0;  ///< the smallest merge ratio at which the two sides become one part
   std::uint32_t a = 0;
@@ -57,17 +57,19 @@ struct Merge {
   bool significant = false;
 };
 
-/// All cuts at once: the single linkage of the basins over their merge ratios.
+/// All cuts at once. Its leaves are pieces of the inside: the basins themselves with
+/// Method::kPaper, regions of basins cut again where they are long or wide with Method::kDefault.
 struct MergeTree {
-  std::vector<Merge> merges;  ///< ascending in ratio; a spanning forest of the basins
-  std::vector<Neck> necks;    ///< all pairs of touching basins, a < b, sorted
-  std::vector<std::uint32_t> basin_of_point;  ///< (n) by input point; kNoBasin without inside
-  std::vector<std::uint32_t> point_count;     ///< (b) points of each basin
-  std::vector<Moments> moments;               ///< (b) about `origin`
-  std::vector<Vec3> ball_center;              ///< (b) of the maximum's ball
-  std::vector<double> ball_radius;            ///< (b)
+  std::vector<Merge> merges;  ///< ascending in ratio; a spanning forest of the pieces
+  std::vector<Neck> necks;    ///< all pairs of touching pieces, a < b, sorted
+  std::vector<std::uint32_t> piece_of_point;  ///< (n) by input point; kNoBasin without inside
+  std::vector<std::uint32_t> point_count;     ///< (p) points of each piece
+  std::vector<Moments> moments;               ///< (p) about `origin`
+  std::vector<Vec3> ball_center;              ///< (p) of the largest ball of a maximum or cell
+  std::vector<double> ball_radius;            ///< (p)
   Vec3 origin;                                ///< reference point of the moments, for precision
   std::size_t component_count = 0;            ///< objects that do not touch
+  double natural_ratio = 1.5;                 ///< where to cut when nothing else is asked for
 
   /// Numbers of parts that some cut gives, and the merge ratios between which it does.
   struct Level {
@@ -75,17 +77,27 @@ struct MergeTree {
     double from_ratio = 1.0;
     double to_ratio = 1.0;  ///< infinite for the coarsest
   };
+  /// Coarsest first. Cost: O(p).
   [[nodiscard]] std::vector<Level> levels() const;
 };
 
-struct MergeOptions {
-  Method method = Method::kDefault;
-};
-
+/// Joins the pieces of the inside, one by one, into one part an object.
+///
+/// Method::kPaper: single linkage of the basins over max(r1, r2) / r, r1 and r2 the radii of their
+/// maxima and r the largest circumradius of a shared triangle.
+/// Source: Dey, Giesen, Goswami 2004, section 3.3.
+///
+/// Method::kDefault: the flow's basins, grouped where sampling alone tells them apart, are cut into
+/// pieces; the cheapest pair of touching groups is merged again and again. A pair costs the more,
+/// the narrower its neck (the paper's ratio), the less of it is visible from one to the other
+/// through the inside, and the larger both are. The ratio of a merge is its cost on the paper's
+/// scale: that of a neck which alone would cost as much. docs/method.md has the formula.
+/// Throws nothing but Error(kInternal). Cost: O(c log c).
 [[nodiscard]] MergeTree build_merge_tree(const DelaunayComplex& complex,
                                          const VertexCells& vertex_cells,
-                                         const std::vector<double>& lambda, const Basins& basins,
-                                         const MergeOptions& options = {});
+                                         const std::vector<double>& lambda,
+                                         const Interior& interior, const Basins& basins,
+                                         Method method = Method::kDefault, int threads = 0);
 
 /// How fine to cut; at most one of the two may be given.
 struct CutOptions {
@@ -102,11 +114,12 @@ struct PartNeighbor {
   double neck_radius = 0.0;  ///< of the largest ball through which the two are joined, in units
 };
 
+/// One part of one cut.
 struct Part {
-  double volume = 0.0;                  ///< in cubed units; the paper's weight
-  Vec3 center;                          ///< volume-weighted mean; the paper's representative point
-  std::array<double, 6> covariance{};   ///< of the volume: xx, xy, xz, yy, yz, zz
-  Vec3 ball_center;                     ///< of the largest inner ball among the part's maxima
+  double volume = 0.0;                 ///< in cubed units; the paper's weight
+  Vec3 center;                         ///< volume-weighted mean; the paper's representative point
+  std::array<double, 6> covariance{};  ///< of the volume: xx, xy, xz, yy, yz, zz
+  Vec3 ball_center;                    ///< of the largest inner ball among the part's maxima
   double ball_radius = 0.0;
   std::size_t point_count = 0;
   std::vector<PartNeighbor> neighbors;  ///< ascending by part
@@ -115,12 +128,12 @@ struct Part {
 /// One cut of the merge tree. Parts are numbered by decreasing volume.
 struct Parts {
   std::vector<Part> parts;
-  std::vector<int> part_of_basin;  ///< (b)
+  std::vector<int> part_of_piece;  ///< (p)
   std::vector<int> part_of_point;  ///< (n); -1 only when nothing is inside
   double merge_ratio = 1.0;        ///< at which the tree was cut
 };
 
-/// Cost: O(b + n); needs no geometry. Throws Error(kUsage).
+/// Cost: O(p + n); needs no geometry. Throws Error(kUsage).
 [[nodiscard]] Parts cut(const MergeTree& tree, const CutOptions& options = {});
 
 }  // namespace morsel

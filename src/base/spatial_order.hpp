@@ -10,8 +10,8 @@ namespace morsel {
 
 /// The distinct points in canonical order and where each input point went.
 struct SpatialOrder {
-  std::vector<Vec3> points;                    ///< (v, 3) distinct, along a Morton curve
-  std::vector<std::uint32_t> order_of_point;   ///< (n) index into `points` of each input point
+  std::vector<Vec3> points;                   ///< (v, 3) distinct, along a Morton curve
+  std::vector<std::uint32_t> order_of_point;  ///< (n) index into `points` of each input point
 };
 
 /// Sorts by Morton code of the bounding cube, ties by coordinates; repeated points are kept once.

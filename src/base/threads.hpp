@@ -27,11 +27,22 @@ void parallel_ranges(std::size_t count, int threads, const Body& body) {
   }
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        body(range.begin(), range.end());
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, kGrain),
+        [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
   });
+}
+
+/// Calls body(i) for each i in [0, count), for rows that are costly and unequal.
+template <typename Body>
+void parallel_rows(std::size_t count, int threads, const Body& body) {
+  threads = resolve_threads(threads);
+  if (threads == 1) {
+    for (std::size_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+  tbb::task_arena arena(threads);
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
 }
 
 }  // namespace morsel

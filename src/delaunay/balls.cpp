@@ -38,8 +38,8 @@ Ball circumscribed_ball(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3&
   const double size = std::sqrt(squared_norm(u) * squared_norm(v) * squared_norm(w));
   constexpr double kFlat = 1e-9;  // leaves six digits to the quotient below
   if (!(std::abs(det) > kFlat * size)) return exact_ball(p, q, r, s);
-  const Vec3 numerator = squared_norm(u) * vw + squared_norm(v) * cross(w, u) +
-                         squared_norm(w) * cross(u, v);
+  const Vec3 numerator =
+      squared_norm(u) * vw + squared_norm(v) * cross(w, u) + squared_norm(w) * cross(u, v);
   const Vec3 offset = (0.5 / det) * numerator;
   return {p + offset, norm(offset)};
 }
@@ -81,7 +81,8 @@ bool inside_equatorial_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const
   const double value = ww * squared_norm(n) - uu * dot(w, cross(v, n)) - vv * dot(w, cross(n, u));
   // |n| <= |u||v| and |w . (v x n)| <= |w||v||n|: the sum of the terms' absolute values is at most
   // a small multiple (the factor counts components) of this.
-  const double magnitude = ww * uu * vv + 2.0 * uu * vv * std::sqrt(ww) * std::sqrt(std::max(uu, vv));
+  const double magnitude =
+      ww * uu * vv + 2.0 * uu * vv * std::sqrt(ww) * std::sqrt(std::max(uu, vv));
   const double bound = 512.0 * std::numeric_limits<double>::epsilon() * magnitude;
   if (value < -bound) return true;
   if (value > bound) return false;

@@ -32,8 +32,14 @@ struct Nearest {
 double cell_volume(const DelaunayComplex& complex, std::size_t cell) {
   const auto& [i, j, k, l] = complex.cells[cell];
   const Vec3& p = complex.vertices[i];
-  return dot(complex.vertices[j] - p,
-             cross(complex.vertices[k] - p, complex.vertices[l] - p)) / 6.0;
+  return dot(complex.vertices[j] - p, cross(complex.vertices[k] - p, complex.vertices[l] - p)) /
+         6.0;
+}
+
+Vec3 cell_centroid(const DelaunayComplex& complex, std::size_t cell) {
+  Vec3 sum;
+  for (const std::uint32_t v : complex.cells[cell]) sum = sum + complex.vertices[v];
+  return 0.25 * sum;
 }
 
 VertexCells find_vertex_cells(const DelaunayComplex& complex) {

@@ -43,8 +43,8 @@ void check_points(std::span<const Vec3> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3& p = points[i];
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-      throw Error(ErrorCode::kInput,
-                  "point " + std::to_string(i) + " is not finite; remove it or mend its coordinates");
+      throw Error(ErrorCode::kInput, "point " + std::to_string(i) +
+                                         " is not finite; remove it or mend its coordinates");
     }
   }
 }

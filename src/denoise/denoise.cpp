@@ -13,8 +13,8 @@ namespace morsel {
 namespace {
 
 // Planes through so few points follow thin walls; 24 already eat them.
-static const std::size_t kNeighbors = getenv("NN") ? atoi(getenv("NN")) : 12;
-static const int kRounds = getenv("NR") ? atoi(getenv("NR")) : 2;
+constexpr std::size_t kNeighbors = 12;
+constexpr int kRounds = 2;
 // Noise above this share of the distance to the twelfth neighbour is smoothed. Clean samples of the
 // development shapes stay below 0.041 even at 5,000 points, 20,000 points with noise of 0.1% of the
 // diagonal reach 0.06.
@@ -41,8 +41,8 @@ double quantile(std::vector<double> values, double share) {
 // Points whose neighbours are several times farther away than those of the cloud at large, or than
 // their own neighbours' neighbours.
 std::vector<bool> find_outliers(const Neighborhoods& neighborhoods, int threads) {
-  static const double kFromCloud = getenv("KC") ? atof(getenv("KC")) : 3.0;
-  static const double kFromNeighbors = getenv("KN") ? atof(getenv("KN")) : 1.6;
+  constexpr double kFromCloud = 3.0;
+  constexpr double kFromNeighbors = 1.6;
   const std::vector<double>& reach = neighborhoods.reach;
   const double far = kFromCloud * quantile(reach, 0.9);
   std::vector<char> is_outlier(reach.size(), 0);
@@ -172,8 +172,7 @@ Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
   Cleaned cleaned = drop_outliers(points, options.threads);
   result.points = std::move(cleaned.points);
   result.stand_in = std::move(cleaned.stand_in);
-  result.outlier_count =
-      static_cast<std::size_t>(std::ranges::count(cleaned.is_outlier, true));
+  result.outlier_count = static_cast<std::size_t>(std::ranges::count(cleaned.is_outlier, true));
   if (result.points.size() <= kNeighbors) return result;
   if (progress != nullptr) progress->check();
 

@@ -30,8 +30,8 @@ class PointAdaptor {
   std::span<const Vec3> points_;
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<
-    nanoflann::L2_Simple_Adaptor<double, PointAdaptor>, PointAdaptor, 3, std::uint32_t>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointAdaptor>,
+                                                 PointAdaptor, 3, std::uint32_t>;
 
 }  // namespace
 

@@ -6,9 +6,9 @@
 #include <morsel/error.hpp>
 #include <morsel/interior.hpp>
 #include <numbers>
-#include <numeric>
 #include <string>
 
+#include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
 
 namespace morsel {
@@ -73,34 +73,16 @@ struct Bridge {
   }
 };
 
-class LabelForest {
- public:
-  explicit LabelForest(std::vector<CellSide>& side) : side_(side), parent_(side.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-
-  std::uint32_t root(std::uint32_t c) {
-    while (parent_[c] != c) {
-      parent_[c] = parent_[parent_[c]];
-      c = parent_[c];
-    }
-    return c;
-  }
-
-  // Joins two trees unless they already carry different labels.
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return;
-    if (side_[a] != CellSide::kOpen && side_[b] != CellSide::kOpen && side_[a] != side_[b]) return;
-    if (side_[a] == CellSide::kOpen) std::swap(a, b);
-    parent_[b] = a;
-  }
-
- private:
-  std::vector<CellSide>& side_;
-  std::vector<std::uint32_t> parent_;
-};
+// Joins two trees unless they already carry different labels; the label sits at the root.
+void join_labels(UnionFind& forest, std::vector<CellSide>& side, std::uint32_t a, std::uint32_t b) {
+  a = forest.root(a);
+  b = forest.root(b);
+  if (a == b) return;
+  if (side[a] != CellSide::kOpen && side[b] != CellSide::kOpen && side[a] != side[b]) return;
+  const CellSide label = side[a] != CellSide::kOpen ? side[a] : side[b];
+  forest.join(a, b);
+  side[forest.root(a)] = label;
+}
 
 std::vector<double> ball_ratios(const DelaunayComplex& complex, const std::vector<double>& lambda) {
   std::vector<double> ratio(complex.cell_count());
@@ -115,21 +97,40 @@ std::vector<double> ball_ratios(const DelaunayComplex& complex, const std::vecto
 // spanning forest with one kind of seed a tree; so the bridges are sorted once and joined.
 void flood(const DelaunayComplex& complex, const std::vector<double>& ratio,
            std::vector<CellSide>& side) {
-  static const double kSmallest = getenv("KS") ? atof(getenv("KS")) : 0.0;
   std::vector<Bridge> bridges;
   for (std::uint32_t c = 0; c < side.size(); ++c) {
-    if (ratio[c] <= kSmallest) continue;
     for (const std::uint32_t d : complex.neighbors[c]) {
-      if (d == kNoCell || d < c || ratio[d] <= kSmallest) continue;
+      if (d == kNoCell || d < c) continue;
       if (side[c] != CellSide::kOpen && side[d] != CellSide::kOpen) continue;
       const double depth = 1.0 + cos_ball_angle(complex, c, d);
       bridges.push_back({std::min(ratio[c], ratio[d]) * depth, c, d});
     }
   }
   std::sort(bridges.begin(), bridges.end());
-  LabelForest forest(side);
-  for (const Bridge& bridge : bridges) forest.join(bridge.a, bridge.b);
+  UnionFind forest(side.size());
+  for (const Bridge& bridge : bridges) join_labels(forest, side, bridge.a, bridge.b);
   for (std::uint32_t c = 0; c < side.size(); ++c) side[c] = side[forest.root(c)];
+}
+
+// Inner cells in groups so much smaller than the largest that they are gaps in the noise band, not
+// objects, are outside after all.
+void drop_flecks(const DelaunayComplex& complex, std::vector<CellSide>& side) {
+  constexpr double kSmallestObject = 0.02;
+  UnionFind groups(side.size());
+  const auto inner = [&](std::uint32_t c) { return side[c] == CellSide::kInner; };
+  for (std::uint32_t c = 0; c < side.size(); ++c) {
+    for (const std::uint32_t d : complex.neighbors[c]) {
+      if (d != kNoCell && d > c && inner(c) && inner(d)) groups.join(c, d);
+    }
+  }
+  std::vector<std::uint32_t> size(side.size(), 0);
+  std::uint32_t largest = 0;
+  for (std::uint32_t c = 0; c < side.size(); ++c) {
+    if (inner(c)) largest = std::max(largest, ++size[groups.root(c)]);
+  }
+  for (std::uint32_t c = 0; c < side.size(); ++c) {
+    if (inner(c) && size[groups.root(c)] < kSmallestObject * largest) side[c] = CellSide::kOuter;
+  }
 }
 
 std::vector<CellSide> label_by_flood(const DelaunayComplex& complex,
@@ -145,6 +146,7 @@ std::vector<CellSide> label_by_flood(const DelaunayComplex& complex,
     if (side[c] == CellSide::kOpen && is_seed(c)) side[c] = CellSide::kInner;
   }
   flood(complex, ratio, side);
+  drop_flecks(complex, side);
   return side;
 }
 
@@ -156,8 +158,8 @@ void InteriorOptions::check() const {
                 "big_ball_ratio is " + std::to_string(big_ball_ratio) + "; it must be above 0");
   }
   if (!(deep_angle >= 0.0 && deep_angle <= 180.0)) {
-    throw Error(ErrorCode::kUsage, "deep_angle is " + std::to_string(deep_angle) +
-                                       "; it must be 0 to 180 degrees");
+    throw Error(ErrorCode::kUsage,
+                "deep_angle is " + std::to_string(deep_angle) + "; it must be 0 to 180 degrees");
   }
 }
 

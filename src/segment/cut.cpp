@@ -11,8 +11,6 @@
 namespace morsel {
 namespace {
 
-constexpr double kDefaultMergeRatio = 1.05;
-
 // The merge ratio that leaves `wanted` parts, or as close as the tree allows.
 double ratio_for_parts(const MergeTree& tree, std::size_t wanted) {
   std::size_t parts = tree.component_count;
@@ -23,7 +21,7 @@ double ratio_for_parts(const MergeTree& tree, std::size_t wanted) {
   return 1.0;
 }
 
-// Numbers the groups of basins by decreasing volume.
+// Numbers the groups of pieces by decreasing volume.
 void number_parts(const MergeTree& tree, UnionFind& groups, Parts& result) {
   const std::size_t count = tree.moments.size();
   std::vector<double> volume(count, 0.0);
@@ -32,13 +30,13 @@ void number_parts(const MergeTree& tree, UnionFind& groups, Parts& result) {
     volume[groups.root(b)] += tree.moments[b].volume;
     if (groups.root(b) == b) roots.push_back(b);
   }
-  std::ranges::stable_sort(
-      roots, [&](std::uint32_t a, std::uint32_t b) { return volume[a] > volume[b]; });
+  std::ranges::stable_sort(roots,
+                           [&](std::uint32_t a, std::uint32_t b) { return volume[a] > volume[b]; });
   std::vector<int> part_of_root(count, -1);
   for (std::size_t i = 0; i < roots.size(); ++i) part_of_root[roots[i]] = static_cast<int>(i);
   result.parts.resize(roots.size());
-  result.part_of_basin.resize(count);
-  for (std::uint32_t b = 0; b < count; ++b) result.part_of_basin[b] = part_of_root[groups.root(b)];
+  result.part_of_piece.resize(count);
+  for (std::uint32_t b = 0; b < count; ++b) result.part_of_piece[b] = part_of_root[groups.root(b)];
 }
 
 // Centre and covariance from sums about `origin`.
@@ -57,8 +55,8 @@ void finish_moments(const Moments& sum, const Vec3& origin, Part& part) {
 void connect_parts(const MergeTree& tree, Parts& result) {
   std::map<std::pair<int, int>, double> necks;
   for (const Neck& neck : tree.necks) {
-    const int a = result.part_of_basin[neck.a];
-    const int b = result.part_of_basin[neck.b];
+    const int a = result.part_of_piece[neck.a];
+    const int b = result.part_of_piece[neck.b];
     if (a == b) continue;
     double& radius = necks[std::minmax(a, b)];
     radius = std::max(radius, neck.radius);
@@ -73,7 +71,7 @@ void connect_parts(const MergeTree& tree, Parts& result) {
 void fill_parts(const MergeTree& tree, Parts& result) {
   std::vector<Moments> sums(result.parts.size());
   for (std::size_t b = 0; b < tree.moments.size(); ++b) {
-    const int p = result.part_of_basin[b];
+    const int p = result.part_of_piece[b];
     sums[p] += tree.moments[b];
     if (tree.ball_radius[b] > result.parts[p].ball_radius) {
       result.parts[p].ball_radius = tree.ball_radius[b];
@@ -84,10 +82,10 @@ void fill_parts(const MergeTree& tree, Parts& result) {
     finish_moments(sums[p], tree.origin, result.parts[p]);
   }
   connect_parts(tree, result);
-  result.part_of_point.reserve(tree.basin_of_point.size());
-  for (const std::uint32_t b : tree.basin_of_point) {
-    result.part_of_point.push_back(b == kNoBasin ? -1 : result.part_of_basin[b]);
-    if (b != kNoBasin) ++result.parts[result.part_of_basin[b]].point_count;
+  result.part_of_point.reserve(tree.piece_of_point.size());
+  for (const std::uint32_t b : tree.piece_of_point) {
+    result.part_of_point.push_back(b == kNoBasin ? -1 : result.part_of_piece[b]);
+    if (b != kNoBasin) ++result.parts[result.part_of_piece[b]].point_count;
   }
 }
 
@@ -113,8 +111,8 @@ void CutOptions::check() const {
   }
   if (parts && *parts < 1) throw Error(ErrorCode::kUsage, "parts is 0; it must be at least 1");
   if (merge_ratio && !(*merge_ratio >= 1.0)) {
-    throw Error(ErrorCode::kUsage, "merge_ratio is " + std::to_string(*merge_ratio) +
-                                       "; it must be at least 1");
+    throw Error(ErrorCode::kUsage,
+                "merge_ratio is " + std::to_string(*merge_ratio) + "; it must be at least 1");
   }
 }
 
@@ -122,7 +120,7 @@ Parts cut(const MergeTree& tree, const CutOptions& options) {
   options.check();
   Parts result;
   result.merge_ratio = options.parts ? ratio_for_parts(tree, *options.parts)
-                                     : options.merge_ratio.value_or(kDefaultMergeRatio);
+                                     : options.merge_ratio.value_or(tree.natural_ratio);
   const std::size_t count = tree.moments.size();
   UnionFind groups(count);
   for (const Merge& merge : tree.merges) {

@@ -3,36 +3,42 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <morsel/segment.hpp>
 #include <numeric>
 #include <tuple>
 
 #include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
+#include "segment/agglomerate.hpp"
+#include "segment/pieces.hpp"
 #include "segment/point_labels.hpp"
+#include "segment/sight.hpp"
 
 namespace morsel {
 namespace {
 
-// A basin or group of basins with a smaller share of its object's points is no part of its own.
+// A piece or group of pieces with a smaller share of its object's points is no part of its own.
 constexpr double kSmallestShare = 0.005;
+// Sampling moves the radii of maxima and necks by up to this share of the spacing.
+constexpr double kRadiusTolerance = 0.25;
 
-std::vector<Neck> find_necks(const DelaunayComplex& complex, const Basins& basins) {
+// Pairs of touching pieces, or of touching basins, by the label of each cell.
+std::vector<Neck> find_necks(const DelaunayComplex& complex,
+                             const std::vector<std::uint32_t>& label) {
   std::vector<Neck> necks;
   for (std::uint32_t c = 0; c < complex.cells.size(); ++c) {
-    const std::uint32_t b = basins.basin_of_cell[c];
+    const std::uint32_t b = label[c];
     if (b == kNoBasin) continue;
     for (int i = 0; i < 4; ++i) {
       const std::uint32_t d = complex.neighbors[c][i];
-      if (d == kNoCell || basins.basin_of_cell[d] == kNoBasin || basins.basin_of_cell[d] <= b) {
-        continue;
-      }
+      if (d == kNoCell || label[d] == kNoBasin || label[d] <= b) continue;
       const auto& cell = complex.cells[c];
       const auto& slots = kFacetSlots[i];
-      necks.push_back({b, basins.basin_of_cell[d],
-                       circumradius(complex.vertices[cell[slots[0]]], complex.vertices[cell[slots[1]]],
-                                    complex.vertices[cell[slots[2]]])});
+      necks.push_back(
+          {b, label[d],
+           circumradius(complex.vertices[cell[slots[0]]], complex.vertices[cell[slots[1]]],
+                        complex.vertices[cell[slots[2]]])});
     }
   }
   std::ranges::sort(necks, [](const Neck& x, const Neck& y) {
@@ -42,6 +48,13 @@ std::vector<Neck> find_necks(const DelaunayComplex& complex, const Basins& basin
       necks, [](const Neck& x, const Neck& y) { return x.a == y.a && x.b == y.b; });
   necks.erase(repeated.begin(), repeated.end());
   return necks;
+}
+
+double merge_ratio(const DelaunayComplex& complex, const Basins& basins, const Neck& neck,
+                   double tolerance) {
+  const double larger =
+      std::max(complex.radii[basins.maximum[neck.a]], complex.radii[basins.maximum[neck.b]]);
+  return std::max((larger - tolerance) / (neck.radius + tolerance), 1.0);
 }
 
 // Moments of a tetrahedron with vertices p0 … p3 about the origin: ∫ x xᵀ = V/20 (Σ p pᵀ + s sᵀ)
@@ -66,34 +79,34 @@ Moments cell_moments(const DelaunayComplex& complex, std::uint32_t cell, const V
   return moments;
 }
 
-void sum_basins(const DelaunayComplex& complex, const Basins& basins, MergeTree& tree) {
+void sum_pieces(const DelaunayComplex& complex, const std::vector<std::uint32_t>& piece_of_cell,
+                std::size_t count, MergeTree& tree) {
   tree.origin = complex.vertices.empty() ? Vec3{} : complex.vertices.front();
-  tree.moments.resize(basins.count());
+  tree.moments.resize(count);
+  tree.ball_center.resize(count);
+  tree.ball_radius.assign(count, 0.0);
   for (std::uint32_t c = 0; c < complex.cells.size(); ++c) {
-    const std::uint32_t b = basins.basin_of_cell[c];
-    if (b != kNoBasin) tree.moments[b] += cell_moments(complex, c, tree.origin);
-  }
-  for (const std::uint32_t maximum : basins.maximum) {
-    tree.ball_center.push_back(complex.centers[maximum]);
-    tree.ball_radius.push_back(complex.radii[maximum]);
+    const std::uint32_t p = piece_of_cell[c];
+    if (p == kNoBasin) continue;
+    tree.moments[p] += cell_moments(complex, c, tree.origin);
+    if (complex.radii[c] > tree.ball_radius[p]) {
+      tree.ball_radius[p] = complex.radii[c];
+      tree.ball_center[p] = complex.centers[c];
+    }
   }
 }
 
-// Single linkage: the minimum spanning forest of the basins over the merge ratios.
-std::vector<Merge> link(const std::vector<Neck>& necks, const std::vector<double>& ball_radius,
-                        double spacing) {
+// Merge ratios of touching basins, single linkage: the minimum spanning forest. Sampling moves
+// both radii by up to `tolerance`.
+std::vector<Merge> link(const DelaunayComplex& complex, const Basins& basins,
+                        const std::vector<Neck>& necks, double tolerance) {
   std::vector<Merge> candidates;
-  static const double tol = getenv("TOL") ? atof(getenv("TOL")) : 0.25;
   candidates.reserve(necks.size());
   for (const Neck& neck : necks) {
-    const double larger = std::max(ball_radius[neck.a], ball_radius[neck.b]);
-    // Sampling moves both radii by up to half the spacing.
-    static const double alp = getenv("ALP") ? atof(getenv("ALP")) : 0.0;
-    const double ratio = (std::sqrt(std::max(larger * larger - alp * spacing * spacing, 0.0)) - tol * spacing) / (neck.radius + tol * spacing);
-    candidates.push_back({std::max(ratio, 1.0), neck.a, neck.b, false});
+    candidates.push_back({merge_ratio(complex, basins, neck, tolerance), neck.a, neck.b, false});
   }
   std::ranges::stable_sort(candidates, {}, &Merge::ratio);
-  UnionFind groups(ball_radius.size());
+  UnionFind groups(basins.count());
   std::vector<Merge> merges;
   for (const Merge& merge : candidates) {
     if (groups.join(merge.a, merge.b)) merges.push_back(merge);
@@ -101,29 +114,161 @@ std::vector<Merge> link(const std::vector<Neck>& necks, const std::vector<double
   return merges;
 }
 
-void mark_significant(MergeTree& tree) {
-  const auto objects = [&] {
-    UnionFind all(tree.point_count.size());
-    for (const Merge& merge : tree.merges) all.join(merge.a, merge.b);
-    return all;
-  };
-  UnionFind object = objects();
-  std::vector<std::size_t> object_points(tree.point_count.size(), 0);
-  for (std::uint32_t b = 0; b < tree.point_count.size(); ++b) {
-    object_points[object.root(b)] += tree.point_count[b];
-    tree.component_count += object.root(b) == b ? 1 : 0;
+// Says of each merge whether both sides are large enough to be parts, and counts the objects.
+std::size_t mark_significant(const std::vector<std::uint32_t>& point_count,
+                             std::vector<Merge>& merges) {
+  const std::size_t count = point_count.size();
+  UnionFind object(count);
+  for (const Merge& merge : merges) object.join(merge.a, merge.b);
+  std::vector<std::size_t> object_points(count, 0);
+  std::size_t objects = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    object_points[object.root(i)] += point_count[i];
+    objects += object.root(i) == i ? 1 : 0;
   }
-  UnionFind groups(tree.point_count.size());
-  std::vector<std::size_t> points(tree.point_count.begin(), tree.point_count.end());
-  for (Merge& merge : tree.merges) {
+  UnionFind groups(count);
+  std::vector<std::size_t> points(point_count.begin(), point_count.end());
+  for (Merge& merge : merges) {
     const std::size_t a = points[groups.root(merge.a)];
     const std::size_t b = points[groups.root(merge.b)];
-    const double needed =
-        kSmallestShare * static_cast<double>(object_points[object.root(merge.a)]);
+    const double needed = kSmallestShare * static_cast<double>(object_points[object.root(merge.a)]);
     merge.significant = static_cast<double>(std::min(a, b)) >= needed;
     groups.join(merge.a, merge.b);
     points[groups.root(merge.a)] = a + b;
   }
+  return objects;
+}
+
+std::vector<std::uint32_t> count_points(const DelaunayComplex& complex,
+                                        const std::vector<std::uint32_t>& label_of_vertex,
+                                        std::size_t count) {
+  std::vector<std::uint32_t> points(count, 0);
+  for (const std::uint32_t v : complex.vertex_of_point) {
+    if (label_of_vertex[v] != kNoBasin) ++points[label_of_vertex[v]];
+  }
+  return points;
+}
+
+// What the default method knows of the basins before it cuts them into pieces.
+struct BasinGroups {
+  std::vector<Neck> necks;
+  std::vector<std::uint32_t> basin_of_vertex;
+  std::vector<std::uint32_t> region_of_basin;  // basins that no neck separates
+  std::vector<std::uint32_t> object_of_basin;  // basins that touch at all
+};
+
+std::vector<std::uint32_t> group_labels(UnionFind& groups, std::size_t count) {
+  std::vector<std::uint32_t> label_of_root(count, kNoBasin);
+  std::vector<std::uint32_t> labels(count);
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::uint32_t& label = label_of_root[groups.root(i)];
+    if (label == kNoBasin) label = next++;
+    labels[i] = label;
+  }
+  return labels;
+}
+
+BasinGroups group_basins(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                         const Basins& basins, double spacing) {
+  // Radii of one region differ by so much from sampling alone.
+  constexpr double kSameRegion = 1.03;
+  BasinGroups result;
+  result.necks = find_necks(complex, basins.basin_of_cell);
+  result.basin_of_vertex = label_vertices(complex, vertex_cells, basins, result.necks);
+  std::vector<Merge> merges = link(complex, basins, result.necks, kRadiusTolerance * spacing);
+  mark_significant(count_points(complex, result.basin_of_vertex, basins.count()), merges);
+  UnionFind regions(basins.count());
+  UnionFind objects(basins.count());
+  for (const Merge& merge : merges) {
+    objects.join(merge.a, merge.b);
+    if (!merge.significant || merge.ratio <= kSameRegion) regions.join(merge.a, merge.b);
+  }
+  result.region_of_basin = group_labels(regions, basins.count());
+  result.object_of_basin = group_labels(objects, basins.count());
+  return result;
+}
+
+// A vertex goes to the piece of its own region whose cell beside it has the largest ball.
+std::vector<std::uint32_t> label_vertices_by_piece(const DelaunayComplex& complex,
+                                                   const VertexCells& vertex_cells,
+                                                   const Basins& basins, const BasinGroups& groups,
+                                                   const Pieces& pieces) {
+  std::vector<std::uint32_t> piece_of_vertex(complex.vertices.size(), kNoBasin);
+  for (std::uint32_t v = 0; v < piece_of_vertex.size(); ++v) {
+    const std::uint32_t basin = groups.basin_of_vertex[v];
+    if (basin == kNoBasin) continue;
+    double largest = 0.0;
+    piece_of_vertex[v] = pieces.piece_of_cell[basins.maximum[basin]];
+    for (const std::uint32_t c : vertex_cells.of(v)) {
+      const std::uint32_t b = basins.basin_of_cell[c];
+      if (b == kNoBasin || groups.region_of_basin[b] != groups.region_of_basin[basin]) continue;
+      if (complex.radii[c] <= largest) continue;
+      largest = complex.radii[c];
+      piece_of_vertex[v] = pieces.piece_of_cell[c];
+    }
+  }
+  return piece_of_vertex;
+}
+
+// Touching pieces with the merge ratio of their regions in place of a radius.
+std::vector<Neck> piece_contacts(const DelaunayComplex& complex, const Basins& basins,
+                                 const BasinGroups& groups, const Pieces& pieces,
+                                 const std::vector<Neck>& piece_necks, double spacing) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> region_ratio;
+  for (const Neck& neck : groups.necks) {
+    const auto regions =
+        std::minmax(groups.region_of_basin[neck.a], groups.region_of_basin[neck.b]);
+    const double ratio = merge_ratio(complex, basins, neck, kRadiusTolerance * spacing);
+    const auto [held, fresh] = region_ratio.try_emplace(regions, ratio);
+    if (!fresh) held->second = std::min(held->second, ratio);
+  }
+  std::vector<Neck> contacts = piece_necks;
+  for (Neck& contact : contacts) {
+    const auto regions = std::minmax(pieces.region[contact.a], pieces.region[contact.b]);
+    contact.radius = regions.first == regions.second ? 1.0 : region_ratio.at(regions);
+  }
+  return contacts;
+}
+
+PieceGraph make_piece_graph(const MergeTree& tree, std::vector<Neck> contacts) {
+  PieceGraph graph;
+  graph.point_count.assign(tree.point_count.begin(), tree.point_count.end());
+  graph.thickness = tree.ball_radius;
+  UnionFind objects(tree.point_count.size());
+  for (const Neck& contact : contacts) objects.join(contact.a, contact.b);
+  std::vector<double> total(tree.point_count.size(), 0.0);
+  for (std::uint32_t p = 0; p < total.size(); ++p) {
+    total[objects.root(p)] += std::max(graph.point_count[p], 1.0);
+  }
+  for (std::uint32_t p = 0; p < total.size(); ++p) {
+    graph.object_count.push_back(total[objects.root(p)]);
+  }
+  graph.contacts = std::move(contacts);
+  return graph;
+}
+
+void assign_points(const DelaunayComplex& complex,
+                   const std::vector<std::uint32_t>& piece_of_vertex, MergeTree& tree) {
+  tree.point_count = count_points(complex, piece_of_vertex, tree.moments.size());
+  tree.piece_of_point.reserve(complex.vertex_of_point.size());
+  for (const std::uint32_t v : complex.vertex_of_point) {
+    tree.piece_of_point.push_back(piece_of_vertex[v]);
+  }
+}
+
+MergeTree build_as_published(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                             const Basins& basins) {
+  MergeTree tree;
+  tree.natural_ratio = 1.5;
+  tree.necks = find_necks(complex, basins.basin_of_cell);
+  sum_pieces(complex, basins.basin_of_cell, basins.count(), tree);
+  tree.merges = link(complex, basins, tree.necks, 0.0);
+  assign_points(complex, label_vertices(complex, vertex_cells, basins, tree.necks), tree);
+  // The paper keeps small segments; only its matching leaves them out.
+  for (Merge& merge : tree.merges) merge.significant = true;
+  tree.component_count = basins.count() - tree.merges.size();
+  return tree;
 }
 
 }  // namespace
@@ -136,25 +281,28 @@ Moments& Moments::operator+=(const Moments& other) {
 }
 
 MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-                           const std::vector<double>& lambda, const Basins& basins,
-                           const MergeOptions& options) {
-  MergeTree tree;
-  tree.necks = find_necks(complex, basins);
-  sum_basins(complex, basins, tree);
+                           const std::vector<double>& lambda, const Interior& interior,
+                           const Basins& basins, Method method, int threads) {
+  if (method == Method::kPaper) {
+    return build_as_published(complex, vertex_cells, basins);
+  }
   const double spacing = lambda.empty() ? 0.0
                                         : std::accumulate(lambda.begin(), lambda.end(), 0.0) /
                                               static_cast<double>(lambda.size());
-  tree.merges = link(tree.necks, tree.ball_radius,
-                     options.method == Method::kPaper ? 0.0 : spacing);
-  const std::vector<std::uint32_t> basin_of_vertex =
-      label_vertices(complex, vertex_cells, basins, tree.necks);
-  tree.point_count.assign(basins.count(), 0);
-  tree.basin_of_point.reserve(complex.vertex_of_point.size());
-  for (const std::uint32_t v : complex.vertex_of_point) {
-    tree.basin_of_point.push_back(basin_of_vertex[v]);
-    if (basin_of_vertex[v] != kNoBasin) ++tree.point_count[basin_of_vertex[v]];
-  }
-  mark_significant(tree);
+  const BasinGroups groups = group_basins(complex, vertex_cells, basins, spacing);
+  const Pieces pieces =
+      split_regions(complex, basins, groups.region_of_basin, groups.object_of_basin, spacing);
+  MergeTree tree;
+  tree.natural_ratio = natural_merge_ratio();
+  tree.necks = find_necks(complex, pieces.piece_of_cell);
+  sum_pieces(complex, pieces.piece_of_cell, pieces.count(), tree);
+  assign_points(complex, label_vertices_by_piece(complex, vertex_cells, basins, groups, pieces),
+                tree);
+  const SightTable sight = find_sight(complex, interior, pieces, spacing, threads);
+  tree.merges = agglomerate(
+      make_piece_graph(tree, piece_contacts(complex, basins, groups, pieces, tree.necks, spacing)),
+      sight);
+  tree.component_count = mark_significant(tree.point_count, tree.merges);
   return tree;
 }
 

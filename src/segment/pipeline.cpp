@@ -64,7 +64,7 @@ std::string describe(const Segmentation& s) {
       const std::size_t parts = s.parts.parts.size();
       const std::size_t objects = s.tree.component_count;
       return std::to_string(parts) + (parts == 1 ? " part" : " parts") +
-             (objects > 1 ? " in " + std::to_string(objects) + " separate pieces." : ".");
+             (objects > 1 ? " in " + std::to_string(objects) + " separate objects." : ".");
     }
     case Verdict::kTooFewPoints:
       return "The cloud has " + std::to_string(s.complex.vertices.size()) +
@@ -115,15 +115,14 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
   const std::vector<double> lambda = stages.run("neighbors", 0.7, [&] {
     return mean_neighbor_distance(s.complex, vertex_cells, options.threads);
   });
-  s.interior = stages.run("interior", 0.75, [&] {
-    return find_interior(s.complex, lambda, options.interior);
-  });
+  s.interior = stages.run("interior", 0.75,
+                          [&] { return find_interior(s.complex, lambda, options.interior); });
   s.basins = stages.run("basins", 0.85, [&] { return find_basins(s.complex, s.interior); });
   s.verdict = judge(s);
   if (s.verdict == Verdict::kSolid) {
     s.tree = stages.run("merge", 0.9, [&] {
-      return build_merge_tree(s.complex, vertex_cells, lambda, s.basins,
-                              {options.interior.method});
+      return build_merge_tree(s.complex, vertex_cells, lambda, s.interior, s.basins,
+                              options.interior.method, options.threads);
     });
     s.parts = stages.run("cut", 0.99, [&] { return cut(s.tree, options.cut); });
     s.labels = point_labels(s, s.parts);

@@ -37,8 +37,8 @@ struct BestBall {
   void offer(const DelaunayComplex& complex, const Basins& basins, const Vec3& p,
              std::uint32_t candidate) {
     const std::uint32_t cell = basins.maximum[candidate];
-    const double ratio = squared_distance(p, complex.centers[cell]) /
-                         (complex.radii[cell] * complex.radii[cell]);
+    const double ratio =
+        squared_distance(p, complex.centers[cell]) / (complex.radii[cell] * complex.radii[cell]);
     if (ratio < squared_ratio || (ratio == squared_ratio && candidate < basin)) {
       squared_ratio = ratio;
       basin = candidate;

@@ -42,15 +42,11 @@ Json options_json(const SegmentOptions& options, const Segmentation& s) {
 }
 
 Json counts_json(const Segmentation& s) {
-  return {{"points", s.denoised.stand_in.size()},
-          {"outliers", s.denoised.outlier_count},
-          {"vertices", s.complex.vertices.size()},
-          {"cells", s.complex.cell_count()},
-          {"inner_cells", s.interior.inner_cells},
-          {"outer_cells", s.interior.outer_cells},
-          {"stray_cells", s.basins.stray_cells},
-          {"basins", s.basins.count()},
-          {"pieces", s.tree.component_count},
+  return {{"points", s.denoised.stand_in.size()},  {"outliers", s.denoised.outlier_count},
+          {"vertices", s.complex.vertices.size()}, {"cells", s.complex.cell_count()},
+          {"inner_cells", s.interior.inner_cells}, {"outer_cells", s.interior.outer_cells},
+          {"stray_cells", s.basins.stray_cells},   {"basins", s.basins.count()},
+          {"pieces", s.tree.moments.size()},       {"objects", s.tree.component_count},
           {"parts", s.parts.parts.size()}};
 }
 
@@ -61,15 +57,13 @@ Json part_json(const Part& part, int index, const Segmentation& s) {
   json["volume_share"] = part.volume / s.interior.volume;
   json["representative_point"] = vector_json(part.center);
   json["covariance"] = part.covariance;
-  json["largest_ball"] = {{"center", vector_json(part.ball_center)},
-                          {"radius", part.ball_radius}};
+  json["largest_ball"] = {{"center", vector_json(part.ball_center)}, {"radius", part.ball_radius}};
   json["points"] = part.point_count;
-  json["point_share"] = static_cast<double>(part.point_count) /
-                        static_cast<double>(s.tree.basin_of_point.size());
+  json["point_share"] =
+      static_cast<double>(part.point_count) / static_cast<double>(s.tree.piece_of_point.size());
   json["neighbors"] = Json::array();
   for (const PartNeighbor& neighbor : part.neighbors) {
-    json["neighbors"].push_back(
-        {{"part", neighbor.part}, {"neck_radius", neighbor.neck_radius}});
+    json["neighbors"].push_back({{"part", neighbor.part}, {"neck_radius", neighbor.neck_radius}});
   }
   return json;
 }

@@ -123,6 +123,7 @@ class Usage(CliTest):
         self.refuse(USAGE, "name a command", )
         self.refuse(USAGE, "unknown command 'segmnt'; did you mean segment\\?", "segmnt", "a.xyz")
         self.refuse(USAGE, "FILE is required", "segment")
+        self.refuse(USAGE, "FILE.*empty", "segment", "")
         self.refuse(USAGE, "unexpected 'b.xyz'", "segment", "a.xyz", "b.xyz")
 
     def test_unknown_options_get_a_suggestion(self):
@@ -314,6 +315,11 @@ class Segment(CliTest):
     def test_one_part_and_merge_ratio(self):
         self.assertIn("1 part", self.segment(self.dumbbell(), "--parts", "1"))
         self.assertIn("1 part", self.segment(self.dumbbell(), "--merge-ratio", "1000"))
+
+    def test_other_count_than_asked_for_is_noted(self):
+        done = self.run_morsel("segment", self.dumbbell(), "--parts", "3000")
+        self.assertEqual(done.returncode, DONE)
+        self.assertRegex(done.stderr.decode(), r"\Amorsel: note: --parts 3000: [^\n]*at most \d+")
 
     def test_all_outputs(self):
         out = self.segment(self.dumbbell(), "--parts", "2", "--labels", "l.txt", "--report",

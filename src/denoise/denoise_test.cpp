@@ -1,0 +1,208 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <morsel/denoise.hpp>
+#include <morsel/error.hpp>
+#include <string>
+
+#include "base/test_shapes.hpp"
+#include "denoise/neighborhoods.hpp"
+
+namespace morsel {
+namespace {
+
+using shapes::Points;
+
+double rms_off_unit_sphere(const Points& points) {
+  double sum = 0.0;
+  for (const Vec3& p : points) sum += (norm(p) - 1.0) * (norm(p) - 1.0);
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+void expect_sound(const Points& input, const Denoised& denoised) {
+  ASSERT_EQ(denoised.stand_in.size(), input.size());
+  for (const std::uint32_t i : denoised.stand_in) ASSERT_LT(i, denoised.points.size());
+  EXPECT_LE(denoised.outlier_count, input.size());
+  EXPECT_EQ(denoised.points.empty(), input.empty());
+}
+
+void expect_same(const Denoised& a, const Denoised& b) {
+  EXPECT_TRUE(a.points == b.points);
+  EXPECT_TRUE(a.stand_in == b.stand_in);
+  EXPECT_EQ(a.noise, b.noise);
+  EXPECT_EQ(a.spacing, b.spacing);
+  EXPECT_EQ(a.rounds, b.rounds);
+  EXPECT_EQ(a.outlier_count, b.outlier_count);
+}
+
+TEST(DenoiseTest, CleanSamplesStayAsTheyAre) {
+  for (const Points& points : {shapes::sphere(10000), shapes::torus(10000, 2.0, 0.7),
+                               shapes::changed(shapes::cube_cloud(5000), [](const Vec3& p) {
+                                 return Vec3{p.x, p.y, 0.25};
+                               })}) {
+    const Denoised denoised = denoise(points);
+    expect_sound(points, denoised);
+    EXPECT_EQ(denoised.rounds, 0);
+    EXPECT_LT(denoised.outlier_count, points.size() / 100);
+    std::size_t stood_in = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      stood_in += denoised.points[denoised.stand_in[i]] == points[i] ? 0 : 1;
+    }
+    EXPECT_EQ(stood_in, denoised.outlier_count);
+  }
+}
+
+TEST(DenoiseTest, NoisySphereComesCloserToItsSurface) {
+  const double sigma = 0.005 * 2.0 * std::sqrt(3.0);  // 0.5% of the diagonal
+  const Points points = shapes::noisy(shapes::sphere(20000), sigma);
+  const Denoised denoised = denoise(points);
+  expect_sound(points, denoised);
+  EXPECT_GT(denoised.rounds, 0);
+  EXPECT_LT(rms_off_unit_sphere(denoised.points), 0.5 * rms_off_unit_sphere(points));
+  EXPECT_GT(denoised.noise, 0.3 * sigma);
+  EXPECT_LT(denoised.noise, 1.5 * sigma);
+}
+
+TEST(DenoiseTest, RoundsAreDoneAsAsked) {
+  const Points points = shapes::noisy(shapes::sphere(3000), 0.01);
+  const Denoised none = denoise(points, {.rounds = 0});
+  for (const int rounds : {0, 1, 2, 20}) {
+    const Denoised denoised = denoise(points, {.rounds = rounds});
+    expect_sound(points, denoised);
+    EXPECT_EQ(denoised.rounds, rounds);
+    EXPECT_EQ(denoised.noise, none.noise);  // of the input, not of the result
+    EXPECT_EQ(denoised.stand_in, none.stand_in);
+    EXPECT_EQ(denoised.points == none.points, rounds == 0);
+  }
+  // Every round also draws a curved surface in a little, so the first helps most.
+  const Denoised once = denoise(points, {.rounds = 1});
+  EXPECT_LT(rms_off_unit_sphere(once.points), 0.7 * rms_off_unit_sphere(none.points));
+}
+
+TEST(DenoiseTest, FarOutliersAreSetApart) {
+  const Points clean = shapes::sphere(10000);
+  Random random(12);
+  Points outliers;
+  while (outliers.size() < 100) {
+    const Vec3 p = 6.0 * (shapes::random_in_cube(random) - Vec3{0.5, 0.5, 0.5});
+    if (norm(p) > 1.5) outliers.push_back(p);
+  }
+  const Points points = shapes::joined(clean, outliers);
+  for (const int rounds : {0, 2}) {
+    const Denoised denoised = denoise(points, {.rounds = rounds});
+    expect_sound(points, denoised);
+    EXPECT_GE(denoised.outlier_count, 100U);
+    EXPECT_LT(denoised.outlier_count, 150U);
+    EXPECT_EQ(denoised.points.size(), points.size() - denoised.outlier_count);
+    for (const Vec3& p : denoised.points) EXPECT_LT(norm(p), 1.2);
+    if (rounds > 0) continue;
+    for (std::size_t i = clean.size(); i < points.size(); ++i) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vec3& p : denoised.points) nearest = std::min(nearest, distance(p, points[i]));
+      EXPECT_EQ(distance(points[i], denoised.points[denoised.stand_in[i]]), nearest);
+    }
+  }
+}
+
+TEST(DenoiseTest, DoesNotDependOnOrderOrThreads) {
+  const Points points = shapes::joined(shapes::noisy(shapes::sphere(6000), 0.01),
+                                       shapes::scaled(shapes::cube_cloud(60), 5.0));
+  const auto shuffle = shapes::permutation(points.size());
+  const Denoised one = denoise(points, {.rounds = {}, .threads = 1});
+  expect_same(one, denoise(points, {.rounds = {}, .threads = 2}));
+  Denoised shuffled = one;
+  shuffled.stand_in = shapes::permuted(one.stand_in, shuffle);
+  expect_same(shuffled, denoise(shapes::permuted(points, shuffle)));
+}
+
+TEST(DenoiseTest, RepeatedPointsShareTheirStandIn) {
+  const Points once = shapes::noisy(shapes::sphere(2000), 0.01);
+  const Denoised denoised = denoise(shapes::joined(once, once));
+  EXPECT_EQ(denoised.points, denoise(once).points);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(denoised.stand_in[i], denoised.stand_in[i + once.size()]);
+  }
+}
+
+TEST(DenoiseTest, FewPoints) {
+  for (std::size_t count = 0; count <= 14; ++count) {
+    const Points points = shapes::cube_cloud(count);
+    const Denoised denoised = denoise(points, {.rounds = 2});
+    expect_sound(points, denoised);
+    for (const Vec3& p : denoised.points) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+  }
+}
+
+TEST(DenoiseTest, DegenerateClouds) {
+  for (const Points& points :
+       {Points(100, {1, 2, 3}), shapes::grid(5), shapes::scaled(shapes::grid(4), 1e-6),
+        shapes::scaled(shapes::grid(4), 1e6), shapes::moved(shapes::grid(4), {1e9, 0, 0}),
+        shapes::changed(shapes::cube_cloud(100), [](const Vec3& p) {
+          return Vec3{p.x, 0, 0};
+        })}) {
+    for (const int rounds : {0, 3}) {
+      const Denoised denoised = denoise(points, {.rounds = rounds});
+      expect_sound(points, denoised);
+      for (const Vec3& p : denoised.points) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+    }
+  }
+  EXPECT_EQ(denoise(Points(100, {1, 2, 3})).points.size(), 1U);
+}
+
+TEST(DenoiseTest, OptionsAreChecked) {
+  for (const int rounds : {-1, 21, 1000}) {
+    try {
+      (void)denoise({}, {.rounds = rounds});
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kUsage);
+      EXPECT_NE(std::string(error.what()).find(std::to_string(rounds)), std::string::npos);
+    }
+  }
+  DenoiseOptions{.rounds = 20}.check();
+  DenoiseOptions{.rounds = 0}.check();
+  DenoiseOptions{}.check();
+}
+
+TEST(DenoiseTest, NamesThePointThatIsNotFinite) {
+  Points points = shapes::cube_cloud(30);
+  points[21].y = std::numeric_limits<double>::quiet_NaN();
+  try {
+    (void)denoise(points);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInput);
+    EXPECT_NE(std::string(error.what()).find("point 21 "), std::string::npos) << error.what();
+  }
+}
+
+TEST(DenoiseTest, CanBeCancelled) {
+  Progress progress;
+  progress.cancel();
+  EXPECT_THROW((void)denoise(shapes::cube_cloud(100), {}, &progress), Error);
+}
+
+TEST(NeighborhoodsTest, AgreeWithBruteForce) {
+  const Points points = shapes::cube_cloud(400);
+  const Neighborhoods found = find_neighborhoods(points, 7, 2);
+  ASSERT_EQ(found.size, 7U);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<std::uint32_t> expected = shapes::permutation(points.size());
+    std::erase(expected, static_cast<std::uint32_t>(i));
+    std::ranges::sort(expected, {},
+                      [&](std::uint32_t j) { return squared_distance(points[i], points[j]); });
+    expected.resize(7);
+    EXPECT_TRUE(std::ranges::equal(found.of(i), expected));
+    EXPECT_DOUBLE_EQ(found.reach[i], distance(points[i], points[expected.back()]));
+  }
+}
+
+TEST(NeighborhoodsTest, FewerPointsThanAskedFor) {
+  EXPECT_EQ(find_neighborhoods({}, 5, 1).size, 0U);
+  const Points points = shapes::cube_cloud(3);
+  EXPECT_EQ(find_neighborhoods(points, 5, 1).size, 2U);
+}
+
+}  // namespace
+}  // namespace morsel

@@ -1,0 +1,132 @@
+#include "segment/agglomerate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace morsel {
+namespace {
+
+// cost = ((1 - sight) + kNeckWeight · ln(ratio / kNoNeck)⁺ + kThicknessWeight · |Δ ln thickness|)
+//        · (20 · share of the smaller side)^kSizePower
+// tuned on the development shapes with ids ≡ 1 mod 4, confirmed on ≡ 3 mod 4 (docs/method.md).
+constexpr double kNeckWeight = 1.32;
+constexpr double kNoNeck = 1.016;
+constexpr double kMostRatio = 5.0;
+constexpr double kThicknessWeight = 0.17;
+constexpr double kSizePower = 0.4;
+constexpr double kNaturalCost = 0.457;
+
+double ratio_of_cost(double cost) { return std::exp(std::max(cost, 0.0) / kNeckWeight); }
+
+class Agglomeration {
+ public:
+  Agglomeration(const PieceGraph& graph, const SightTable& sight)
+      : count_(graph.point_count.size()),
+        alive_(count_, true),
+        points_(graph.point_count),
+        object_points_(graph.object_count),
+        log_thickness_(count_),
+        seen_(count_ * count_),
+        weight_(count_ * count_),
+        ratio_(count_) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      points_[i] = std::max(points_[i], 1.0);
+      log_thickness_[i] = std::log(graph.thickness[i]);
+    }
+    // Each pair of sights counts by the points that it stands for.
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t j = 0; j < count_; ++j) {
+        const std::size_t at = i * count_ + j;
+        weight_[at] = static_cast<double>(sight.weight[at]) * points_[i] * points_[j];
+        seen_[at] = weight_[at] * static_cast<double>(sight.seen[at]);
+      }
+    }
+    for (const Neck& contact : graph.contacts) {
+      const double ratio = std::min(contact.radius, kMostRatio);
+      ratio_[contact.a][contact.b] = ratio_[contact.b][contact.a] = ratio;
+    }
+  }
+
+  std::vector<Merge> run() {
+    std::vector<Merge> merges;
+    double level = 0.0;
+    while (true) {
+      const Candidate best = cheapest();
+      if (best.cost == std::numeric_limits<double>::infinity()) return merges;
+      level = std::max(level, best.cost);
+      merges.push_back({ratio_of_cost(level), best.a, best.b, false});
+      absorb(best.a, best.b);
+    }
+  }
+
+ private:
+  struct Candidate {
+    double cost = std::numeric_limits<double>::infinity();
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+  };
+
+  [[nodiscard]] double cost(std::uint32_t a, std::uint32_t b, double ratio) const {
+    const std::size_t at = a * count_ + b;
+    const double sight = weight_[at] > 0.0 ? seen_[at] / weight_[at] : 0.0;
+    const double neck = std::max(std::log(ratio / kNoNeck), 0.0);
+    const double thickness = std::abs(log_thickness_[a] - log_thickness_[b]);
+    const double share = std::min(points_[a], points_[b]) / object_points_[a];
+    return ((1.0 - sight) + kNeckWeight * neck + kThicknessWeight * thickness) *
+           std::pow(20.0 * share, kSizePower);
+  }
+
+  [[nodiscard]] Candidate cheapest() const {
+    Candidate best;
+    for (std::uint32_t a = 0; a < count_; ++a) {
+      for (const auto& [b, ratio] : ratio_[a]) {
+        if (b >= a) break;
+        const double c = cost(a, b, ratio);
+        if (c < best.cost) best = {c, a, b};
+      }
+    }
+    return best;
+  }
+
+  // Group b becomes part of group a.
+  void absorb(std::uint32_t a, std::uint32_t b) {
+    for (std::uint32_t k = 0; k < count_; ++k) {
+      if (!alive_[k] || k == a || k == b) continue;
+      weight_[k * count_ + a] = weight_[a * count_ + k] += weight_[b * count_ + k];
+      seen_[k * count_ + a] = seen_[a * count_ + k] += seen_[b * count_ + k];
+    }
+    const double sum = points_[a] + points_[b];
+    log_thickness_[a] = (points_[a] * log_thickness_[a] + points_[b] * log_thickness_[b]) / sum;
+    points_[a] = sum;
+    alive_[b] = false;
+    for (const auto& [k, ratio] : ratio_[b]) {
+      ratio_[k].erase(b);
+      if (k == a) continue;
+      const auto [held, fresh] = ratio_[a].try_emplace(k, ratio);
+      if (!fresh) held->second = std::min(held->second, ratio);
+      ratio_[k][a] = held->second;
+    }
+    ratio_[b].clear();
+  }
+
+  std::size_t count_;
+  std::vector<bool> alive_;
+  std::vector<double> points_;
+  std::vector<double> object_points_;
+  std::vector<double> log_thickness_;
+  std::vector<double> seen_;                            // sums over pairs of pieces, (p, p)
+  std::vector<double> weight_;                          // (p, p)
+  std::vector<std::map<std::uint32_t, double>> ratio_;  // of touching groups
+};
+
+}  // namespace
+
+std::vector<Merge> agglomerate(const PieceGraph& graph, const SightTable& sight) {
+  return Agglomeration(graph, sight).run();
+}
+
+double natural_merge_ratio() { return ratio_of_cost(kNaturalCost); }
+
+}  // namespace morsel
