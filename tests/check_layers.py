@@ -69,7 +69,7 @@ def check_triangulation(root):
                 continue
             for line, _, name in includes(path):
                 if TRIANGULATION.match(name):
-                    yield (f"{path.relative_to(root)}:{line}: only {TRIANGULATING} includes "
+                    yield (f"{path.relative_to(root)}:{line}: only {TRIANGULATING[0]} includes "
                            "CGAL's triangulation")
 
 

@@ -122,7 +122,7 @@ std::pair<std::vector<int>, std::size_t> choose_cut(const Segmentation& segmenta
     return {segmentation.labels, segmentation.parts.parts.size()};
   }
   const Parts parts = cut(segmentation.tree, {.parts = told, .merge_ratio = std::nullopt});
-  return {point_labels(segmentation, parts), parts.parts.size()};
+  return {parts.part_of_point, parts.parts.size()};
 }
 
 Result evaluate(const Model& model, const Options& options, double noise) {

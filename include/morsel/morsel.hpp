@@ -53,7 +53,7 @@ struct Segmentation {
   std::string message;      ///< one sentence: what was found and, unless solid, what to do
   std::vector<int> labels;  ///< (n) part of each input point, in input order; -1 unless solid
   Parts parts;
-  MergeTree tree;
+  MergeTree tree;  ///< cut() it again for other labels: Parts::part_of_point
   Denoised denoised;
   DelaunayComplex complex;
   Interior interior;
@@ -67,9 +67,6 @@ struct Segmentation {
 /// several threads.
 [[nodiscard]] Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options = {},
                                    const Progress* progress = nullptr);
-
-/// Labels of another cut for the input points of `segmentation`; needs no geometry. Cost: O(p + n).
-[[nodiscard]] std::vector<int> point_labels(const Segmentation& segmentation, const Parts& parts);
 
 /// The report as JSON text: version, options, counts of every stage, parts, merge levels, costs.
 /// Its schema is docs/report.md. `source` names the input.

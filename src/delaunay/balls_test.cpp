@@ -26,13 +26,6 @@ DelaunayComplex one_cell(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3
   return complex;
 }
 
-DelaunayComplex two_balls(const Vec3& center, double ra, double rb) {
-  DelaunayComplex complex;
-  complex.centers = {{0, 0, 0}, center};
-  complex.radii = {ra, rb};
-  return complex;
-}
-
 TEST(BallsTest, CentresAreEquidistantFromTheCorners) {
   for (const Points& points :
        {shapes::cube_cloud(500), shapes::even_sphere(500), shapes::grid(5)}) {
@@ -120,14 +113,31 @@ TEST(EquatorialSphereTest, AgreesWithRationalNumbers) {
   EXPECT_GT(ties, 500);
 }
 
+// Two cells over one facet whose circle has radius 1 about the origin in the plane z = 0; their
+// balls' centres stand at heights `low` and `high` over it.
+DelaunayComplex two_balls(double low, double high) {
+  DelaunayComplex complex;
+  const double half = std::sqrt(0.75);
+  complex.vertices = {{1, 0, 0}, {-0.5, half, 0}, {-0.5, -half, 0}, {0, 0, -2}, {0, 0, 2}};
+  complex.cells = {{3, 0, 1, 2}, {4, 0, 1, 2}};
+  complex.neighbors = {{1, kNoCell, kNoCell, kNoCell}, {0, kNoCell, kNoCell, kNoCell}};
+  complex.centers = {{0, 0, low}, {0, 0, high}};
+  complex.radii = {std::hypot(1.0, low), std::hypot(1.0, high)};
+  return complex;
+}
+
 TEST(BallAngleTest, HandCases) {
-  EXPECT_DOUBLE_EQ(cos_ball_angle(two_balls({0, 0, 0}, 2, 2), 0, 1), 1.0);   // the same
-  EXPECT_DOUBLE_EQ(cos_ball_angle(two_balls({5, 0, 0}, 2, 3), 0, 1), -1.0);  // touching outside
-  EXPECT_DOUBLE_EQ(cos_ball_angle(two_balls({0, 1, 0}, 2, 3), 0, 1), 1.0);   // touching inside
-  EXPECT_NEAR(cos_ball_angle(two_balls({0, 0, 5}, 3, 4), 0, 1), 0.0, 1e-15);
-  EXPECT_NEAR(cos_ball_angle(two_balls({1, 0, 0}, 1, 1), 0, 1), 0.5, 1e-15);
-  EXPECT_DOUBLE_EQ(cos_ball_angle(two_balls({9, 0, 0}, 2, 3), 0, 1), -1.0);  // clamped
-  EXPECT_NEAR(cos_ball_angle(two_balls({1e8, 0, 0}, 1e8, 1e8), 0, 1), 0.5, 1e-12);
+  EXPECT_NEAR(cos_ball_angle(two_balls(0, 0), 0, 1), 1.0, 1e-15);   // the same ball
+  EXPECT_NEAR(cos_ball_angle(two_balls(-1, 1), 0, 1), 0.0, 1e-15);  // a right angle
+  EXPECT_NEAR(cos_ball_angle(two_balls(0, 1), 0, 1), std::sqrt(0.5), 1e-15);
+}
+
+// A nearly flat cell has a huge ball; the angle to its neighbour's is still told exactly.
+TEST(BallAngleTest, HugeBalls) {
+  EXPECT_NEAR(cos_ball_angle(two_balls(1e12, 1), 0, 1), std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(cos_ball_angle(two_balls(1e12, 0), 0, 1), 0.0, 1e-9);
+  EXPECT_NEAR(cos_ball_angle(two_balls(1e12, -1e12), 0, 1), -1.0, 1e-9);
+  EXPECT_NEAR(cos_ball_angle(two_balls(1e12, 1e12), 0, 1), 1.0, 1e-9);
 }
 
 TEST(BallAngleTest, HullFacetsOfACornerTetrahedron) {

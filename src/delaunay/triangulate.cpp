@@ -32,7 +32,7 @@ using Triangulation = CGAL::Delaunay_triangulation_3<
 
 using Quad = std::array<std::uint32_t, 4>;
 
-// Below this size CGAL's locks cost more than a second thread brings (docs/performance.md).
+// Below this size CGAL's locks cost more than a second thread brings.
 constexpr std::size_t kParallelThreshold = 50000;
 constexpr int kLockGridSize = 50;
 

@@ -95,12 +95,6 @@ TEST(InteriorTest, AnEnclosedCavityCountsAsInside) {
   expect_volume(points, kUnitBall, 0.02);
 }
 
-TEST(InteriorTest, DISABLED_HollowSphereHasTheVolumeOfItsShell) {
-  const Points points =
-      shapes::joined(shapes::sphere(14000, {}, 1.0, 1), shapes::sphere(6000, {}, 0.6, 2));
-  expect_volume(points, kUnitBall * (1.0 - 0.216), 0.03);
-}
-
 TEST(InteriorTest, DefaultMethodLeavesNoCellOpen) {
   for (const Points& points : {shapes::sphere(4000), shapes::dumbbell(6000),
                                shapes::noisy(shapes::torus(6000, 2.0, 0.6), 0.02)}) {

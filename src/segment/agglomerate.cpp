@@ -51,12 +51,13 @@ class Agglomeration {
 
   std::vector<Merge> run() {
     std::vector<Merge> merges;
-    double level = 0.0;
+    double level = 1.0;
     while (true) {
       const Candidate best = cheapest();
       if (best.cost == std::numeric_limits<double>::infinity()) return merges;
-      level = std::max(level, best.cost);
-      merges.push_back({ratio_of_cost(level), best.a, best.b, false});
+      // Strictly rising, so that a ratio can tell any two merges apart.
+      level = std::max(level * (1.0 + 1e-9), ratio_of_cost(best.cost));
+      merges.push_back({level, best.a, best.b, false});
       absorb(best.a, best.b);
     }
   }

@@ -101,7 +101,7 @@ std::vector<MergeTree::Level> MergeTree::levels() const {
     to = merge->ratio;
     ++parts;
   }
-  levels.push_back({parts, 1.0, to});
+  if (to > 1.0) levels.push_back({parts, 1.0, to});
   return levels;
 }
 

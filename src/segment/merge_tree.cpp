@@ -203,7 +203,8 @@ std::vector<std::uint32_t> label_vertices_by_piece(const DelaunayComplex& comple
     for (const std::uint32_t c : vertex_cells.of(v)) {
       const std::uint32_t b = basins.basin_of_cell[c];
       if (b == kNoBasin || groups.region_of_basin[b] != groups.region_of_basin[basin]) continue;
-      if (complex.radii[c] <= largest) continue;
+      // Balls that differ by rounding alone count as equal; the first cell is then as good.
+      if (complex.radii[c] <= largest * (1.0 + 1e-9)) continue;
       largest = complex.radii[c];
       piece_of_vertex[v] = pieces.piece_of_cell[c];
     }

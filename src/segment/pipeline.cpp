@@ -47,8 +47,20 @@ Denoised take_as_they_are(std::span<const Vec3> points) {
   return result;
 }
 
+// From here on "point" means a point of the input, outliers and repeated ones included.
+std::vector<std::uint32_t> vertices_of_input(const DelaunayComplex& complex,
+                                             const Denoised& denoised) {
+  std::vector<std::uint32_t> vertices;
+  vertices.reserve(denoised.stand_in.size());
+  for (const std::uint32_t i : denoised.stand_in) vertices.push_back(complex.vertex_of_point[i]);
+  return vertices;
+}
+
 // Below this share of the inner cells' number an inside is no solid but chance holes in a cloud.
 constexpr double kSmallestInside = 0.02;
+
+// More objects than this are rather the shreds of an open one.
+constexpr std::size_t kManyObjects = 5;
 
 Verdict judge(const Segmentation& s) {
   if (s.complex.vertices.size() < 4) return Verdict::kTooFewPoints;
@@ -63,8 +75,15 @@ std::string describe(const Segmentation& s) {
     case Verdict::kSolid: {
       const std::size_t parts = s.parts.parts.size();
       const std::size_t objects = s.tree.component_count;
-      return std::to_string(parts) + (parts == 1 ? " part" : " parts") +
-             (objects > 1 ? " in " + std::to_string(objects) + " separate objects." : ".");
+      std::string text = std::to_string(parts) + (parts == 1 ? " part" : " parts");
+      if (objects > 1) text += " in " + std::to_string(objects) + " separate objects";
+      text += ".";
+      if (objects > kManyObjects) {
+        text +=
+            " If the cloud shows one object, its surface has gaps: scan the missing side or give "
+            "more points.";
+      }
+      return text;
     }
     case Verdict::kTooFewPoints:
       return "The cloud has " + std::to_string(s.complex.vertices.size()) +
@@ -88,15 +107,6 @@ void SegmentOptions::check() const {
   cut.check();
 }
 
-std::vector<int> point_labels(const Segmentation& segmentation, const Parts& parts) {
-  std::vector<int> labels;
-  labels.reserve(segmentation.denoised.stand_in.size());
-  for (const std::uint32_t i : segmentation.denoised.stand_in) {
-    labels.push_back(parts.part_of_point[i]);
-  }
-  return labels;
-}
-
 Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options,
                      const Progress* progress) {
   options.check();
@@ -109,7 +119,9 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
     return paper ? take_as_they_are(points) : denoise(points, denoise_options, progress);
   });
   s.complex = stages.run("triangulate", 0.2, [&] {
-    return triangulate(s.denoised.points, {options.threads}, progress);
+    DelaunayComplex complex = triangulate(s.denoised.points, {options.threads}, progress);
+    complex.vertex_of_point = vertices_of_input(complex, s.denoised);
+    return complex;
   });
   const VertexCells vertex_cells = find_vertex_cells(s.complex);
   const std::vector<double> lambda = stages.run("neighbors", 0.7, [&] {
@@ -125,7 +137,7 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
                               options.interior.method, options.threads);
     });
     s.parts = stages.run("cut", 0.99, [&] { return cut(s.tree, options.cut); });
-    s.labels = point_labels(s, s.parts);
+    s.labels = s.parts.part_of_point;
   } else {
     s.labels.assign(points.size(), -1);
   }

@@ -1,7 +1,10 @@
 #include "segment/point_labels.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <tuple>
 
 namespace morsel {
 namespace {
@@ -46,39 +49,30 @@ struct BestBall {
   }
 };
 
-// Gives vertices without an inner cell the basin of their nearest labelled Delaunay neighbour, in
-// rounds, so that the result does not depend on the order of the vertices.
+// Vertices without an inner cell take their basin over the shortest edges first, so that no label
+// jumps along the long edges of the hull; ties by index.
 void spread_labels(const DelaunayComplex& complex, const VertexCells& vertex_cells,
                    std::vector<std::uint32_t>& basin_of_vertex) {
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t v = 0; v < basin_of_vertex.size(); ++v) {
-    if (basin_of_vertex[v] == kNoBasin) open.push_back(v);
-  }
-  while (!open.empty()) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-    std::vector<std::uint32_t> rest;
-    for (const std::uint32_t v : open) {
-      double nearest = std::numeric_limits<double>::infinity();
-      std::uint32_t basin = kNoBasin;
-      for (const std::uint32_t c : vertex_cells.of(v)) {
-        for (const std::uint32_t w : complex.cells[c]) {
-          if (basin_of_vertex[w] == kNoBasin) continue;
-          const double squared = squared_distance(complex.vertices[v], complex.vertices[w]);
-          if (squared < nearest) {
-            nearest = squared;
-            basin = basin_of_vertex[w];
-          }
-        }
-      }
-      if (basin == kNoBasin) {
-        rest.push_back(v);
-      } else {
-        found.emplace_back(v, basin);
+  using Offer = std::tuple<double, std::uint32_t, std::uint32_t>;  // squared length, vertex, basin
+  std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers;
+  const auto offer_around = [&](std::uint32_t v) {
+    for (const std::uint32_t c : vertex_cells.of(v)) {
+      for (const std::uint32_t w : complex.cells[c]) {
+        if (basin_of_vertex[w] != kNoBasin) continue;
+        const double squared = squared_distance(complex.vertices[v], complex.vertices[w]);
+        offers.emplace(squared, w, basin_of_vertex[v]);
       }
     }
-    if (found.empty()) return;
-    for (const auto& [v, basin] : found) basin_of_vertex[v] = basin;
-    open = std::move(rest);
+  };
+  for (std::uint32_t v = 0; v < basin_of_vertex.size(); ++v) {
+    if (basin_of_vertex[v] != kNoBasin) offer_around(v);
+  }
+  while (!offers.empty()) {
+    const auto [squared, v, basin] = offers.top();
+    offers.pop();
+    if (basin_of_vertex[v] != kNoBasin) continue;
+    basin_of_vertex[v] = basin;
+    offer_around(v);
   }
 }
 
