@@ -1,6 +1,6 @@
 # The two commands of the README are `make demo` and `make test`; each installs what it needs.
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench lint docs format install clean
+.PHONY: help demo test sanitize bench lint docs format install clean
 export INPUT ARGS
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
@@ -10,8 +10,14 @@ help:  ## List the targets
 demo:  ## Segment example scans, or INPUT=scan.ply [ARGS="--parts 5"]; results in out/
 	@scripts/demo.sh
 
-test:  ## Build and run every test, the sanitizers and the lint checks
+test:  ## Build, run every test and the quick lint checks
 	@scripts/test.sh
+
+sanitize:  ## Run the tests under address and undefined-behaviour sanitizers
+	@scripts/install-dependencies.sh
+	@cmake --preset asan-ubsan
+	@cmake --build --preset asan-ubsan
+	@ctest --preset asan-ubsan
 
 bench:  ## Run the benchmarks: ARGS="segmentation --help"
 	@scripts/install-dependencies.sh

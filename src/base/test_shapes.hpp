@@ -41,8 +41,10 @@ inline Points cube_cloud(std::size_t count, std::uint64_t seed = 1) {
 inline Points grid(int side) {
   Points points;
   for (int i = 0; i < side * side * side; ++i) {
-    points.push_back({static_cast<double>(i % side), static_cast<double>(i / side % side),
-                      static_cast<double>(i / side / side)});
+    const int row = i / side;
+    const int layer = row / side;
+    points.push_back({static_cast<double>(i % side), static_cast<double>(row % side),
+                      static_cast<double>(layer)});
   }
   return points;
 }

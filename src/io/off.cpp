@@ -26,7 +26,7 @@ void skip_keyword(const LineScanner& scanner, std::string_view& rest) {
   const std::size_t at = rest.find("OFF");
   if (at == std::string_view::npos && is_digit(rest[0])) return;
   const std::string_view prefix = rest.substr(0, at);
-  const bool known = prefix == "" || prefix == "C" || prefix == "N" || prefix == "CN" ||
+  const bool known = prefix.empty() || prefix == "C" || prefix == "N" || prefix == "CN" ||
                      prefix == "ST" || prefix == "STC" || prefix == "STN" || prefix == "STCN" ||
                      prefix == "NC";
   if (at == std::string_view::npos || !known) {
