@@ -22,11 +22,12 @@ CACHE = ROOT / "build" / "tidy-passed"
 
 
 def our_commands(build, only):
-    """The compile commands of our own sources, each file once."""
+    """The compile commands of our own sources but the tests, each file once."""
     commands = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         path = (pathlib.Path(entry["directory"]) / entry["file"]).resolve()
         ours = path.is_relative_to(ROOT) and path.relative_to(ROOT).parts[0] in FOLDERS
+        ours = ours and not path.stem.endswith("_test")
         if path.exists() and ours and (not only or path in only):
             commands.setdefault(path, entry)
     return commands
