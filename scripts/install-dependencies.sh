@@ -9,7 +9,7 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache pkg-config python3
   libcgal-dev libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev
-  libassimp-dev liblzf-dev libnanoflann-dev zlib1g-dev libgtest-dev
+  liblzf-dev libnanoflann-dev zlib1g-dev libgtest-dev
 )
 lint=(clang-format clang-tidy-16 shellcheck) # 14, the default, cannot parse <ranges>
 case "${1:-}" in

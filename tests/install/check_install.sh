@@ -15,7 +15,7 @@ mv "$work/staged" "$work/moved"
 hidden=()
 if compgen -G "$work/moved/lib*/libmorsel.so*" >/dev/null ||
   compgen -G "$work/moved/lib/*/libmorsel.so*" >/dev/null; then
-  for package in CGAL TBB Eigen3 nanoflann ZLIB PNG fmt nlohmann_json CLI11 assimp; do
+  for package in CGAL TBB Eigen3 nanoflann ZLIB PNG fmt nlohmann_json CLI11; do
     hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
   done
 fi
