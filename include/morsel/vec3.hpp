@@ -35,5 +35,8 @@ struct Vec3 {
   return squared_norm(a - b);
 }
 [[nodiscard]] inline double distance(const Vec3& a, const Vec3& b) { return norm(a - b); }
+[[nodiscard]] inline bool is_finite(const Vec3& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 }  // namespace morsel

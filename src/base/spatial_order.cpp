@@ -1,8 +1,12 @@
 #include "base/spatial_order.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <morsel/error.hpp>
+#include <string>
 #include <tuple>
+
+#include "base/box.hpp"
+#include "base/morton.hpp"
 
 namespace morsel {
 namespace {
@@ -12,17 +16,6 @@ struct Entry {
   Vec3 point;
   std::uint32_t index;
 };
-
-// Spreads the lower 21 bits so that two zero bits follow each.
-std::uint64_t spread_bits(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffffULL;
-  x = (x | x << 16) & 0x1f0000ff0000ffULL;
-  x = (x | x << 8) & 0x100f00f00f00f00fULL;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
-  x = (x | x << 2) & 0x1249249249249249ULL;
-  return x;
-}
 
 std::uint64_t quantize(double value, double low, double scale) {
   constexpr double kLast = 2097151.0;  // 2^21 - 1
@@ -34,15 +27,20 @@ bool before(const Entry& a, const Entry& b) {
          std::tie(b.code, b.point.x, b.point.y, b.point.z);
 }
 
-std::vector<Entry> sorted_entries(std::span<const Vec3> points) {
-  Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-           std::numeric_limits<double>::infinity()};
-  Vec3 high = -1.0 * low;
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+void check_points(std::span<const Vec3> points) {
+  if (points.size() >= (std::size_t{1} << 31)) {
+    throw Error(ErrorCode::kInput, "more than 2^31 points; thin the cloud first");
   }
-  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const auto bad = std::ranges::find_if_not(points, is_finite);
+  if (bad == points.end()) return;
+  throw Error(ErrorCode::kInput, "point " + std::to_string(bad - points.begin()) +
+                                     " is not finite; remove it or mend its coordinates");
+}
+
+std::vector<Entry> sorted_entries(std::span<const Vec3> points) {
+  const Box box = bounding_box(points);
+  const Vec3 low = box.low;
+  const double extent = box.longest_side();
   const double scale = extent > 0.0 && extent < 1e300 ? 2097152.0 / extent : 0.0;
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -59,6 +57,7 @@ std::vector<Entry> sorted_entries(std::span<const Vec3> points) {
 }  // namespace
 
 SpatialOrder sort_spatially(std::span<const Vec3> points) {
+  check_points(points);
   SpatialOrder order;
   order.points.reserve(points.size());
   order.order_of_point.resize(points.size());

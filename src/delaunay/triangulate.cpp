@@ -7,11 +7,8 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <morsel/delaunay.hpp>
-#include <morsel/error.hpp>
-#include <string>
 #include <utility>
 
 #include "base/spatial_order.hpp"
@@ -35,19 +32,6 @@ using Quad = std::array<std::uint32_t, 4>;
 // Below this size CGAL's locks cost more than a second thread brings.
 constexpr std::size_t kParallelThreshold = 50000;
 constexpr int kLockGridSize = 50;
-
-void check_points(std::span<const Vec3> points) {
-  if (points.size() >= (std::size_t{1} << 31)) {
-    throw Error(ErrorCode::kInput, "more than 2^31 points; thin the cloud first");
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3& p = points[i];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-      throw Error(ErrorCode::kInput, "point " + std::to_string(i) +
-                                         " is not finite; remove it or mend its coordinates");
-    }
-  }
-}
 
 // The cell's vertices ascending, the last two swapped where that is needed to stay positively
 // oriented, as CGAL's cells are. `slots` says which CGAL slot each came from.
@@ -146,7 +130,6 @@ void triangulate_parallel(DelaunayComplex& complex, int threads, const Progress*
 
 DelaunayComplex triangulate(std::span<const Vec3> points, const TriangulateOptions& options,
                             const Progress* progress) {
-  check_points(points);
   DelaunayComplex complex;
   SpatialOrder order = sort_spatially(points);
   complex.vertices = std::move(order.points);

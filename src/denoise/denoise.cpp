@@ -20,16 +20,6 @@ constexpr int kRounds = 2;
 // diagonal reach 0.06.
 constexpr double kNoisyShare = 0.05;
 
-void check_points(std::span<const Vec3> points) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3& p = points[i];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-      throw Error(ErrorCode::kInput, "point " + std::to_string(i) +
-                                         " is not finite; remove it or mend its coordinates");
-    }
-  }
-}
-
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto middle =
@@ -167,7 +157,6 @@ void DenoiseOptions::check() const {
 Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
                  const Progress* progress) {
   options.check();
-  check_points(points);
   Denoised result;
   Cleaned cleaned = drop_outliers(points, options.threads);
   result.points = std::move(cleaned.points);

@@ -64,9 +64,7 @@ void append_fan(std::span<const std::uint32_t> polygon, std::vector<Triangle>& t
 }
 
 void require_finite(const std::string& name, const std::vector<Vec3>& points) {
-  const auto bad = std::find_if(points.begin(), points.end(), [](const Vec3& p) {
-    return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z);
-  });
+  const auto bad = std::ranges::find_if_not(points, is_finite);
   if (bad == points.end()) return;
   fail_at_point(name, static_cast<std::size_t>(bad - points.begin()),
                 fmt::format("is ({}, {}, {}); expected finite coordinates, so remove invalid "

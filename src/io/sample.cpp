@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <morsel/error.hpp>
 #include <morsel/io.hpp>
 #include <vector>
 
+#include "base/box.hpp"
 #include "base/random.hpp"
 
 namespace morsel {
@@ -17,16 +17,6 @@ namespace {
 constexpr std::size_t kMaxCount = std::size_t{1} << 31;
 // Sets the noise apart from the choice of the points, which stay the same for every noise.
 constexpr std::uint64_t kNoiseStream = 0x6e6f697365ULL;
-
-struct Box {
-  Vec3 low;
-  Vec3 high;
-
-  [[nodiscard]] double diagonal() const { return distance(low, high); }
-  [[nodiscard]] double largest_side() const {
-    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  }
-};
 
 void check_mesh(const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -42,14 +32,9 @@ void check_mesh(const TriangleMesh& mesh) {
 
 // Of the vertices that a triangle uses.
 Box bounding_box(const TriangleMesh& mesh) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  Box box;
   for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) {
-      const Vec3& p = mesh.vertices[v];
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    }
+    for (const std::uint32_t v : triangle) box.add(mesh.vertices[v]);
   }
   return box;
 }
@@ -99,7 +84,7 @@ SurfaceSample sample_surface(const TriangleMesh& mesh, const SampleOptions& opti
   options.check();
   check_mesh(mesh);
   const Box box = bounding_box(mesh);
-  const std::vector<double> areas = cumulative_areas(mesh, box.largest_side());
+  const std::vector<double> areas = cumulative_areas(mesh, box.longest_side());
   const double total = areas.empty() ? 0.0 : areas.back();
   if (!(total > 0.0) || !std::isfinite(total)) {
     throw Error(ErrorCode::kInput,

@@ -17,6 +17,9 @@
 #include <cstdint>
 #include <nanoflann.hpp>
 
+#include "base/box.hpp"
+#include "base/morton.hpp"
+
 namespace morsel::picture {
 namespace {
 
@@ -51,38 +54,6 @@ void parallel_for_each(std::size_t count, const Body& body) {
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
                     });
-}
-
-bool is_finite(const Vec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-struct Box {
-  Vec3 low;
-  Vec3 high;
-};
-
-Box bounding_box(std::span<const Vec3> points) {
-  Box box;
-  bool first = true;
-  for (const Vec3& p : points) {
-    if (!is_finite(p)) continue;
-    if (first) box = {p, p};
-    first = false;
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
-}
-
-// Interleaves the lowest 21 bits of x with two zero bits each.
-std::uint64_t spread_bits(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffffULL;
-  x = (x | x << 16) & 0x1f0000ff0000ffULL;
-  x = (x | x << 8) & 0x100f00f00f00f00fULL;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
-  return (x | x << 2) & 0x1249249249249249ULL;
 }
 
 std::uint64_t cell_code(const Vector3f& p, float cell) {
