@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "isolated.hpp"
-#include "run_options.hpp"
+#include "levels.hpp"
 #include "sampling.hpp"
 #include "summary.hpp"
 
@@ -154,25 +153,22 @@ ordered_json run_to_json(const std::vector<Result>& results, const Summary& summ
   return run;
 }
 
-void run(const RunOptions& options) {
-  const std::vector<Model> models = options.models();
-  const std::vector<double> levels = options.noise_levels();
-  const auto outcomes =
-      run_isolated(models.size() * levels.size(), options.threads, [&](std::size_t job) {
-        return evaluate(models[job % models.size()], options, levels[job / models.size()]);
-      });
-
-  ordered_json report = report_head("interior", options);
-  for (std::size_t level = 0; level < levels.size(); ++level) {
-    std::vector<Result> results;
-    for (std::size_t i = 0; i < models.size(); ++i) {
-      results.push_back(result_of(models[i], outcomes[level * models.size() + i]));
-    }
-    const Summary summary = summarize(results);
-    print_table(results, summary, levels[level]);
-    report["runs"].push_back(run_to_json(results, summary, levels[level]));
+ordered_json report_level(const std::vector<Model>& models, const std::vector<Outcome>& outcomes,
+                          double noise) {
+  std::vector<Result> results;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    results.push_back(result_of(models[i], outcomes[i]));
   }
-  if (!options.json.empty()) write_json(options.json, report);
+  const Summary summary = summarize(results);
+  print_table(results, summary, noise);
+  return run_to_json(results, summary, noise);
+}
+
+void run(const RunOptions& options) {
+  const auto evaluate_one = [&](const Model& model, double noise) {
+    return evaluate(model, options, noise);
+  };
+  run_levels(options, report_head("interior", options), evaluate_one, report_level);
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <morsel/error.hpp>
 #include <utility>
 
+#include "base/box.hpp"
 #include "base/random.hpp"
 #include "nearest.hpp"
 
@@ -18,16 +18,10 @@ namespace {
 constexpr std::uint64_t kOutlierStream = 0x6f75746c696572ULL;
 
 // Grown by half of itself about its middle.
-std::pair<Vec3, Vec3> grown_box(std::span<const Vec3> points) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low{kInfinity, kInfinity, kInfinity};
-  Vec3 high = -1.0 * low;
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3 margin = 0.25 * (high - low);
-  return {low - margin, high + margin};
+Box grown_box(std::span<const Vec3> points) {
+  const Box box = bounding_box(points);
+  const Vec3 margin = 0.25 * (box.high - box.low);
+  return {.low = box.low - margin, .high = box.high + margin};
 }
 
 void add_outliers(Cloud& cloud, const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {

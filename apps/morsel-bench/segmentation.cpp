@@ -10,9 +10,8 @@
 #include <utility>
 
 #include "commands.hpp"
-#include "isolated.hpp"
+#include "levels.hpp"
 #include "measures.hpp"
-#include "run_options.hpp"
 #include "sampling.hpp"
 #include "summary.hpp"
 
@@ -293,27 +292,28 @@ void write_sheet(const Options& options, const std::vector<Result>& results, dou
   if (!pictures.empty()) write_png(path, make_sheet(pictures, captions, kSheetColumns));
 }
 
-void run(const Options& options) {
-  const std::vector<Model> models = options.run.models();
-  const std::vector<double> levels = options.run.noise_levels();
-  const auto outcomes =
-      run_isolated(models.size() * levels.size(), options.run.threads, [&](std::size_t job) {
-        return to_json(evaluate(models[job % models.size()], options, levels[job / models.size()]));
-      });
+ordered_json report_level(const Options& options, const std::vector<Model>& models,
+                          const std::vector<Outcome>& outcomes, double noise) {
+  std::vector<Result> results;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    results.push_back(result_of(models[i], outcomes[i]));
+  }
+  const Summary summary = summarize(results);
+  print_table(results, summary, noise);
+  if (!options.sheet.empty()) write_sheet(options, results, noise);
+  return run_to_json(results, summary, noise);
+}
 
+void run(const Options& options) {
   ordered_json report = report_head("segmentation", options.run);
   report["options"]["parts_told"] = options.parts_told;
-  for (std::size_t level = 0; level < levels.size(); ++level) {
-    std::vector<Result> results;
-    for (std::size_t i = 0; i < models.size(); ++i) {
-      results.push_back(result_of(models[i], outcomes[level * models.size() + i]));
-    }
-    const Summary summary = summarize(results);
-    print_table(results, summary, levels[level]);
-    report["runs"].push_back(run_to_json(results, summary, levels[level]));
-    if (!options.sheet.empty()) write_sheet(options, results, levels[level]);
-  }
-  if (!options.run.json.empty()) write_json(options.run.json, report);
+  const auto evaluate_one = [&](const Model& model, double noise) {
+    return to_json(evaluate(model, options, noise));
+  };
+  const auto report_one = [&](const auto& models, const auto& outcomes, double noise) {
+    return report_level(options, models, outcomes, noise);
+  };
+  run_levels(options.run, std::move(report), evaluate_one, report_one);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/box.hpp"
 #include "base/random.hpp"
 
 namespace morsel::bench {
@@ -42,13 +43,7 @@ bool inside_another(std::span<const Capsule> capsules, std::size_t own, const Ve
 
 void add_noise(std::vector<Vec3>& points, double fraction, Random& random) {
   if (points.empty() || !(fraction > 0.0)) return;
-  Vec3 low = points[0];
-  Vec3 high = points[0];
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const double sigma = fraction * distance(low, high);
+  const double sigma = fraction * bounding_box(points).diagonal();
   for (Vec3& p : points) {
     const double x = random.normal();
     const double y = random.normal();
