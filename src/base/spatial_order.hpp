@@ -15,8 +15,8 @@ struct SpatialOrder {
 };
 
 /// Sorts by Morton code of the bounding cube, ties by coordinates; repeated points are kept once.
-/// -0.0 counts as 0.0. Throws Error(kInput) for 2^31 points or more, and naming the index of a point
-/// that is not finite: every stage that takes bare points begins here. Cost: O(n log n).
+/// -0.0 counts as 0.0. Throws Error(kInput) for 2^31 points or more, and naming the index of a
+/// point that is not finite: every stage that takes bare points begins here. Cost: O(n log n).
 [[nodiscard]] SpatialOrder sort_spatially(std::span<const Vec3> points);
 
 }  // namespace morsel
