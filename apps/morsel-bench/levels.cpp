@@ -12,10 +12,9 @@ void run_levels(const RunOptions& options, nlohmann::ordered_json report, const 
   const std::vector<Model> models = options.models();
   const std::vector<double> levels = options.noise_levels();
   const std::size_t count = models.size();
-  const std::vector<Outcome> outcomes =
-      run_isolated(count * levels.size(), options.threads, [&](std::size_t job) {
-        return evaluate(models[job % count], levels[job / count]);
-      });
+  const std::vector<Outcome> outcomes = run_isolated(
+      count * levels.size(), options.threads,
+      [&](std::size_t job) { return evaluate(models[job % count], levels[job / count]); });
   for (std::size_t level = 0; level < levels.size(); ++level) {
     const auto own = std::span(outcomes).subspan(level * count, count);
     report["runs"].push_back(report_level(models, {own.begin(), own.end()}, levels[level]));

@@ -96,4 +96,13 @@ std::vector<Vec3> sample_union(std::span<const Capsule> capsules, const ShapeOpt
   return points;
 }
 
+void bend(std::span<Vec3> points) {
+  constexpr double kHeight = 0.06;
+  for (Vec3& p : points) {
+    const Vec3 wave{std::sin(2.1 * p.y + 1.3 * p.z), std::sin(1.7 * p.z + 1.1 * p.x),
+                    std::sin(1.9 * p.x)};
+    p = p + kHeight * wave;
+  }
+}
+
 }  // namespace morsel::bench

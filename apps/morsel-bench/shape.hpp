@@ -33,4 +33,9 @@ struct ShapeOptions {
 [[nodiscard]] std::vector<Vec3> sample_union(std::span<const Capsule> capsules,
                                              const ShapeOptions& options);
 
+/// Moves points along smooth waves of space, long against the beast's limbs. Samples of exact
+/// spheres and cylinders are cospherical by the thousand, as no scan's are: their Delaunay balls
+/// nearly coincide, and exact arithmetic and slivers then take most of the time.
+void bend(std::span<Vec3> points);
+
 }  // namespace morsel::bench

@@ -47,5 +47,21 @@ TEST(SampleUnion, HasNoiseOfTheGivenSize) {
   EXPECT_NEAR(std::sqrt(sum / 20000.0), 0.01 * std::sqrt(12.0), 2e-3);
 }
 
+TEST(Bend, MovesPointsALittleAndMakesACylinderUneven) {
+  const std::vector<Capsule> one{{{-2, 0, 0}, {2, 0, 0}, 0.5}};
+  const auto points = sample_union(one, {.count = 1000});
+  auto bent = points;
+  bend(bent);
+  double least = 1.0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_LT(distance(points[i], bent[i]), 0.11);
+    const double from_axis = std::hypot(bent[i].y, bent[i].z);
+    least = std::min(least, from_axis);
+    most = std::max(most, from_axis);
+  }
+  EXPECT_GT(most, least + 0.05);
+}
+
 }  // namespace
 }  // namespace morsel::bench

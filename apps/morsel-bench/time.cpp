@@ -10,6 +10,7 @@
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/threads.hpp"
@@ -42,7 +43,7 @@ enum Contender : std::size_t { kCgal, kOneThread, kAllThreads, kContenderCount }
 struct Timings {
   std::array<std::vector<double>, kContenderCount> seconds;
   std::vector<std::string> stages;
-  std::vector<std::vector<double>> stage_seconds;  // of each stage, one thread, all runs
+  std::vector<std::array<std::vector<double>, kContenderCount>> stage_seconds;  // none of CGAL
 };
 
 class Stopwatch {
@@ -72,7 +73,7 @@ double time_segment(const Input& input, int threads, Segmentation& segmentation)
   return watch.seconds();
 }
 
-void add_stages(const Segmentation& segmentation, Timings& timings) {
+void add_stages(const Segmentation& segmentation, std::size_t contender, Timings& timings) {
   for (const StageCost& cost : segmentation.costs) {
     const auto found = std::find(timings.stages.begin(), timings.stages.end(), cost.stage);
     const auto index = static_cast<std::size_t>(found - timings.stages.begin());
@@ -80,7 +81,7 @@ void add_stages(const Segmentation& segmentation, Timings& timings) {
       timings.stages.push_back(cost.stage);
       timings.stage_seconds.emplace_back();
     }
-    timings.stage_seconds[index].push_back(cost.seconds);
+    timings.stage_seconds[index][contender].push_back(cost.seconds);
   }
 }
 
@@ -100,7 +101,7 @@ Timings measure(const Input& input, std::size_t runs) {
                              : time_segment(input, contender == kOneThread ? 1 : 0, segmentation);
       if (run == 0) continue;
       timings.seconds[contender].push_back(seconds);
-      if (contender == kOneThread) add_stages(segmentation, timings);
+      add_stages(segmentation, contender, timings);
     }
   }
   return timings;
@@ -127,11 +128,14 @@ void print_timings(const Input& input, const Timings& timings, std::size_t runs)
   print_contender("CGAL Delaunay insertion", timings, kCgal);
   print_contender("segment, 1 thread", timings, kOneThread);
   print_contender(fmt::format("segment, {} threads", resolve_threads(0)), timings, kAllThreads);
-  fmt::print("  stages (1 thread, medians):\n");
+  fmt::print("  stages, medians {:>20} {:>10}   ratio of each to CGAL\n", "1 thread",
+             fmt::format("{} threads", resolve_threads(0)));
+  const double cgal = median(timings.seconds[kCgal]);
   for (std::size_t i = 0; i < timings.stages.size(); ++i) {
-    fmt::print("    {:<26} {:8.3f} s   {:5.2f}\n", timings.stages[i],
-               median(timings.stage_seconds[i]),
-               median(timings.stage_seconds[i]) / median(timings.seconds[kCgal]));
+    const double one = median(timings.stage_seconds[i][kOneThread]);
+    const double all = median(timings.stage_seconds[i][kAllThreads]);
+    fmt::print("    {:<20} {:10.3f} s {:8.3f} s   {:5.2f}  {:5.2f}\n", timings.stages[i], one, all,
+               one / cgal, all / cgal);
   }
 }
 
@@ -144,7 +148,8 @@ ordered_json to_json(const Input& input, const Timings& timings) {
                          {"one_thread_ratio", median(ratios(timings, kOneThread))},
                          {"all_threads_ratio", median(ratios(timings, kAllThreads))}};
   for (std::size_t i = 0; i < timings.stages.size(); ++i) {
-    object["stages"][timings.stages[i]] = timings.stage_seconds[i];
+    object["one_thread_stages"][timings.stages[i]] = timings.stage_seconds[i][kOneThread];
+    object["all_threads_stages"][timings.stages[i]] = timings.stage_seconds[i][kAllThreads];
   }
   return object;
 }
@@ -158,8 +163,10 @@ std::vector<Input> make_inputs(const Options& options) {
   }
   if (!inputs.empty()) return inputs;
   for (const double noise : {0.0, 0.003}) {
-    inputs.push_back({fmt::format("beast of capsules, noise {:g}", noise),
-                      sample_union(beast(), {.count = options.points, .noise = noise, .seed = 1})});
+    Input input{fmt::format("bent beast of capsules, noise {:g}", noise),
+                sample_union(beast(), {.count = options.points, .noise = noise, .seed = 1})};
+    bend(input.points);
+    inputs.push_back(std::move(input));
   }
   return inputs;
 }
