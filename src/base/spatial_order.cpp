@@ -19,6 +19,7 @@ struct Entry {
 
 std::uint64_t quantize(double value, double low, double scale) {
   constexpr double kLast = 2097151.0;  // 2^21 - 1
+  if (scale == 0.0) return 0;          // the difference may be infinite, and its product undefined
   return static_cast<std::uint64_t>(std::clamp((value - low) * scale, 0.0, kLast));
 }
 
