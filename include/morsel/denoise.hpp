@@ -36,8 +36,8 @@ struct Denoised {
 };
 
 /// Sets apart points far from all others, estimates the noise from how far points lie off the
-/// planes through their neighbours, and projects each point onto its local plane when the noise is
-/// large against the spacing.
+/// planes through their neighbours and, when it is large against the spacing, moves each point
+/// along its normal onto the surface that its neighbours agree on (bilateral smoothing).
 /// Throws Error(kInput) for a coordinate that is not finite, Error(kCancelled).
 /// Cost: O(n log n); independent of the order of the points and of the number of threads.
 [[nodiscard]] Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options = {},

@@ -75,7 +75,6 @@ TEST(DenoiseTest, RoundsAreDoneAsAsked) {
     EXPECT_EQ(denoised.stand_in, none.stand_in);
     EXPECT_EQ(denoised.points == none.points, rounds == 0);
   }
-  // Every round also draws a curved surface in a little, so the first helps most.
   const Denoised once = denoise(points, {.rounds = 1});
   EXPECT_LT(rms_off_unit_sphere(once.points), 0.7 * rms_off_unit_sphere(none.points));
 }

@@ -1,0 +1,50 @@
+#include "denoise/planes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "base/threads.hpp"
+
+namespace morsel {
+namespace {
+
+Scatter::Axis axis(const Eigen::Matrix3d& sum, int index) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(sum);
+  const Eigen::Vector3d direction = solver.eigenvectors().col(index);
+  return {{direction.x(), direction.y(), direction.z()},
+          std::max(solver.eigenvalues()[index], 0.0)};
+}
+
+}  // namespace
+
+Scatter::Axis Scatter::shortest() const { return axis(sum_, 0); }
+Scatter::Axis Scatter::longest() const { return axis(sum_, 2); }
+
+Planes fit_planes(std::span<const Vec3> points, const Neighborhoods& neighborhoods,
+                  std::size_t size, int threads) {
+  Planes planes;
+  planes.normal.resize(points.size());
+  planes.residual.resize(points.size());
+  const auto fit = [&](std::size_t i) {
+    const auto all = neighborhoods.of(i);
+    const auto neighbors = all.first(std::min(size, all.size()));
+    Vec3 sum;
+    for (const std::uint32_t j : neighbors) sum = sum + (points[j] - points[i]);
+    const auto count = static_cast<double>(neighbors.size() + 1);
+    const Vec3 mean = (1.0 / count) * sum;
+    Scatter scatter;
+    scatter.add(mean);
+    for (const std::uint32_t j : neighbors) scatter.add(points[j] - points[i] - mean);
+    const Scatter::Axis normal = scatter.shortest();
+    planes.normal[i] = normal.direction;
+    planes.residual[i] = std::sqrt(normal.sum / count);
+  };
+  parallel_ranges(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) fit(i);
+  });
+  return planes;
+}
+
+}  // namespace morsel

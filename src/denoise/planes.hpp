@@ -1,0 +1,47 @@
+// Planes through neighbourhoods of a raw cloud.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <morsel/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "denoise/neighborhoods.hpp"
+
+namespace morsel {
+
+/// Sum of w d dᵀ over offsets d, and its axes.
+class Scatter {
+ public:
+  void add(const Vec3& d, double weight = 1.0) {
+    sum_(0, 0) += weight * d.x * d.x;
+    sum_(1, 0) += weight * d.y * d.x;
+    sum_(2, 0) += weight * d.z * d.x;
+    sum_(1, 1) += weight * d.y * d.y;
+    sum_(2, 1) += weight * d.z * d.y;
+    sum_(2, 2) += weight * d.z * d.z;
+  }
+
+  struct Axis {
+    Vec3 direction;  ///< unit; its sign means nothing
+    double sum;      ///< of the squared, weighted offsets along it
+  };
+  [[nodiscard]] Axis shortest() const;
+  [[nodiscard]] Axis longest() const;
+
+ private:
+  Eigen::Matrix3d sum_ = Eigen::Matrix3d::Zero();  // lower triangle
+};
+
+/// The planes through each point and its nearest neighbours.
+struct Planes {
+  std::vector<Vec3> normal;      ///< (n) unit; their signs mean nothing
+  std::vector<double> residual;  ///< (n) root mean square distance of the points from the plane
+};
+
+/// Fits them to each point and the `size` nearest of its neighbours. Cost: O(n · size).
+[[nodiscard]] Planes fit_planes(std::span<const Vec3> points, const Neighborhoods& neighborhoods,
+                                std::size_t size, int threads);
+
+}  // namespace morsel

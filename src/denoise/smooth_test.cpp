@@ -1,0 +1,93 @@
+#include "denoise/smooth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <morsel/error.hpp>
+
+#include "base/test_shapes.hpp"
+#include "denoise/neighborhoods.hpp"
+#include "denoise/planes.hpp"
+
+namespace morsel {
+namespace {
+
+using shapes::Points;
+
+Points smoothed(Points points, int rounds = 3) {
+  smooth(points, rounds, 0, nullptr);
+  return points;
+}
+
+double mean_radius(const Points& points) {
+  double sum = 0.0;
+  for (const Vec3& p : points) sum += norm(p);
+  return sum / static_cast<double>(points.size());
+}
+
+// Two sides of a wall `thickness` apart, 2 by 2 wide.
+Points wall(std::size_t count, double thickness) {
+  Random random(5);
+  Points points;
+  for (std::size_t i = 0; i < count; ++i) {
+    points.push_back(
+        {2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0, i % 2 == 0 ? 0.0 : thickness});
+  }
+  return points;
+}
+
+TEST(SmoothTest, CurvedSurfacesAreNotPulledIn) {
+  // Mean planes through 40 of 2,000 points lie 0.005 inside the unit sphere, in every round.
+  const Points points = shapes::noisy(shapes::sphere(2000), 0.02);
+  EXPECT_NEAR(mean_radius(smoothed(points)), 1.0, 0.002);
+}
+
+TEST(SmoothTest, BothSidesOfAThinWallStayApart) {
+  // 40 neighbours reach 0.08 far; the wall is thinner than that, with noise of a seventh of it.
+  const double thickness = 0.07;
+  const double sigma = 0.01;
+  const Points clean = wall(20000, thickness);
+  const Points points = smoothed(shapes::noisy(clean, sigma));
+  std::size_t astray = 0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double off = points[i].z - clean[i].z;
+    astray += std::abs(off) > 0.5 * thickness ? 1 : 0;
+    squares += off * off;
+  }
+  EXPECT_LT(astray, points.size() / 200);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(points.size())), 0.5 * sigma);
+}
+
+TEST(SmoothTest, ExactPlanesStayAsTheyAre) {
+  const Points points = wall(2000, 0.0);
+  EXPECT_EQ(smoothed(points), points);
+}
+
+TEST(SmoothTest, NoRoundsMoveNothing) {
+  const Points points = shapes::noisy(shapes::sphere(500), 0.02);
+  EXPECT_EQ(smoothed(points, 0), points);
+}
+
+TEST(SmoothTest, CanBeCancelled) {
+  Points points = shapes::noisy(shapes::sphere(500), 0.02);
+  Progress progress;
+  progress.cancel();
+  EXPECT_THROW(smooth(points, 1, 0, &progress), Error);
+}
+
+TEST(PlanesTest, NormalAndResidualOfAKnownPatch) {
+  // Eight neighbours of the origin at heights of +h and -h in turn, in the plane z = 0 on average.
+  const double h = 0.1;
+  Points points{{0.0, 0.0, 0.0}};
+  for (int i = 0; i < 8; ++i) {
+    const double angle = i * 0.25 * 3.14159265358979323846;
+    points.push_back({std::cos(angle), std::sin(angle), i % 2 == 0 ? h : -h});
+  }
+  const Planes planes = fit_planes(points, find_neighborhoods(points, 8, 1), 8, 1);
+  EXPECT_NEAR(std::abs(planes.normal[0].z), 1.0, 1e-12);
+  EXPECT_NEAR(planes.residual[0], h * std::sqrt(8.0 / 9.0), 1e-12);
+}
+
+}  // namespace
+}  // namespace morsel
