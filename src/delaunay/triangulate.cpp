@@ -33,72 +33,82 @@ using Quad = std::array<std::uint32_t, 4>;
 constexpr std::size_t kParallelThreshold = 50000;
 constexpr int kLockGridSize = 50;
 
-// The cell's vertices ascending, the last two swapped where that is needed to stay positively
-// oriented, as CGAL's cells are. `slots` says which CGAL slot each came from.
-template <typename CellHandle>
-Quad canonical_vertices(const CellHandle& cell, std::array<int, 4>* slots) {
-  std::array<std::pair<std::uint32_t, int>, 4> sorted;
-  for (int i = 0; i < 4; ++i) sorted[i] = {cell->vertex(i)->info(), i};
-  bool odd = false;
-  for (int i = 1; i < 4; ++i) {
-    for (int j = i; j > 0 && sorted[j].first < sorted[j - 1].first; --j) {
-      std::swap(sorted[j], sorted[j - 1]);
-      odd = !odd;
-    }
-  }
-  if (odd) std::swap(sorted[2], sorted[3]);
-  if (slots != nullptr) {
-    for (int i = 0; i < 4; ++i) (*slots)[i] = sorted[i].second;
-  }
-  return {sorted[0].first, sorted[1].first, sorted[2].first, sorted[3].first};
-}
+// Cells in any order: vertices, and neighbours opposite them.
+struct RawCells {
+  std::vector<Quad> vertices;
+  std::vector<Quad> neighbors;
+};
 
-// Finite cells by their smallest vertices: a counting sort by the smallest, small sorts inside.
-template <typename Cell>
-std::vector<Cell> canonical_order(const std::vector<Cell>& cells, std::size_t vertex_count) {
-  std::vector<std::uint32_t> begins(vertex_count + 1, 0);
-  const auto smallest = [](const Cell& cell) {
-    return std::min({cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(),
-                     cell->vertex(3)->info()});
-  };
-  for (const Cell& cell : cells) ++begins[smallest(cell) + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) begins[v + 1] += begins[v];
-  std::vector<Cell> ordered(cells.size());
-  std::vector<std::uint32_t> ends(begins.begin(), begins.end() - 1);
-  for (const Cell& cell : cells) ordered[ends[smallest(cell)]++] = cell;
-  std::vector<std::pair<Quad, Cell>> bucket;
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    bucket.clear();
-    for (std::uint32_t i = begins[v]; i < begins[v + 1]; ++i) {
-      bucket.emplace_back(canonical_vertices(ordered[i], nullptr), ordered[i]);
-    }
-    std::sort(bucket.begin(), bucket.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t i = 0; i < bucket.size(); ++i) ordered[begins[v] + i] = bucket[i].second;
-  }
-  return ordered;
-}
-
+// Two passes over CGAL's cells, which lie scattered in memory; all else works on flat arrays.
 template <typename Delaunay>
-void copy_cells(const Delaunay& delaunay, DelaunayComplex& complex) {
-  using Cell = typename Delaunay::Cell_handle;
-  std::vector<Cell> cells;
-  cells.reserve(delaunay.tds().cells().size());
+RawCells copy_cells(const Delaunay& delaunay) {
+  RawCells raw;
+  raw.vertices.reserve(delaunay.tds().cells().size());
+  const auto infinite = delaunay.infinite_vertex();
   for (auto it = delaunay.all_cells_begin(); it != delaunay.all_cells_end(); ++it) {
-    if (delaunay.is_infinite(it)) {
+    if (it->has_vertex(infinite)) {
       it->info() = kNoCell;
-    } else {
-      cells.push_back(it);
+      continue;
     }
+    it->info() = static_cast<std::uint32_t>(raw.vertices.size());
+    raw.vertices.push_back({it->vertex(0)->info(), it->vertex(1)->info(), it->vertex(2)->info(),
+                            it->vertex(3)->info()});
   }
-  cells = canonical_order(cells, complex.vertices.size());
-  for (std::size_t c = 0; c < cells.size(); ++c) cells[c]->info() = static_cast<std::uint32_t>(c);
-  complex.cells.resize(cells.size());
-  complex.neighbors.resize(cells.size());
-  std::array<int, 4> slots{};
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    complex.cells[c] = canonical_vertices(cells[c], &slots);
-    for (int i = 0; i < 4; ++i) complex.neighbors[c][i] = cells[c]->neighbor(slots[i])->info();
+  raw.neighbors.reserve(raw.vertices.size());
+  for (auto it = delaunay.all_cells_begin(); it != delaunay.all_cells_end(); ++it) {
+    if (it->info() == kNoCell) continue;
+    raw.neighbors.push_back({it->neighbor(0)->info(), it->neighbor(1)->info(),
+                             it->neighbor(2)->info(), it->neighbor(3)->info()});
+  }
+  return raw;
+}
+
+// Brings a cell's vertices, and the neighbours opposite them, into ascending order, the last two
+// swapped where that is needed to stay positively oriented, as CGAL's cells are.
+void make_canonical(Quad& vertices, Quad& neighbors) {
+  bool odd = false;
+  const auto exchange = [&](int i, int j) {
+    std::swap(vertices[i], vertices[j]);
+    std::swap(neighbors[i], neighbors[j]);
+    odd = !odd;
+  };
+  for (int i = 1; i < 4; ++i) {
+    for (int j = i; j > 0 && vertices[j] < vertices[j - 1]; --j) exchange(j, j - 1);
+  }
+  if (odd) exchange(2, 3);
+}
+
+// Canonical cells by their vertices: a counting sort by the smallest, which comes first, small
+// sorts inside. Says which cell comes where.
+std::vector<std::uint32_t> canonical_order(const std::vector<Quad>& vertices,
+                                           std::size_t vertex_count) {
+  std::vector<std::uint32_t> begins(vertex_count + 1, 0);
+  for (const Quad& cell : vertices) ++begins[cell[0] + 1];
+  for (std::size_t v = 0; v < vertex_count; ++v) begins[v + 1] += begins[v];
+  std::vector<std::uint32_t> order(vertices.size());
+  std::vector<std::uint32_t> ends(begins.begin(), begins.end() - 1);
+  for (std::uint32_t c = 0; c < vertices.size(); ++c) order[ends[vertices[c][0]]++] = c;
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    std::sort(order.begin() + begins[v], order.begin() + begins[v + 1],
+              [&](std::uint32_t a, std::uint32_t b) { return vertices[a] < vertices[b]; });
+  }
+  return order;
+}
+
+void store_cells(RawCells raw, DelaunayComplex& complex) {
+  const std::size_t count = raw.vertices.size();
+  for (std::size_t c = 0; c < count; ++c) make_canonical(raw.vertices[c], raw.neighbors[c]);
+  const std::vector<std::uint32_t> order = canonical_order(raw.vertices, complex.vertices.size());
+  std::vector<std::uint32_t> place(count);
+  for (std::uint32_t c = 0; c < count; ++c) place[order[c]] = c;
+  complex.cells.resize(count);
+  complex.neighbors.resize(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    complex.cells[c] = raw.vertices[order[c]];
+    for (int i = 0; i < 4; ++i) {
+      const std::uint32_t neighbor = raw.neighbors[order[c]][i];
+      complex.neighbors[c][i] = neighbor == kNoCell ? kNoCell : place[neighbor];
+    }
   }
 }
 
@@ -112,7 +122,7 @@ void insert_and_copy(Delaunay& delaunay, DelaunayComplex& complex, const Progres
   delaunay.insert(points.begin(), points.end());
   if (progress != nullptr) progress->check();
   complex.dimension = delaunay.dimension();
-  if (complex.dimension == 3) copy_cells(delaunay, complex);
+  if (complex.dimension == 3) store_cells(copy_cells(delaunay), complex);
 }
 
 void triangulate_parallel(DelaunayComplex& complex, int threads, const Progress* progress) {

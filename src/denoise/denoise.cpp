@@ -44,12 +44,13 @@ std::vector<bool> find_outliers(const Neighborhoods& neighborhoods, int threads)
 // the latter.
 double estimate_noise(const std::vector<double>& residuals) { return quantile(residuals, 0.2); }
 
-// Keeps the entries of `points` that are no outliers.
-std::vector<Vec3> select(const std::vector<Vec3>& points, const std::vector<bool>& drop) {
-  std::vector<Vec3> kept;
-  kept.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!drop[i]) kept.push_back(points[i]);
+// Keeps the entries of `values` that belong to no outlier.
+template <typename Value>
+std::vector<Value> select(const std::vector<Value>& values, const std::vector<bool>& drop) {
+  std::vector<Value> kept;
+  kept.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!drop[i]) kept.push_back(values[i]);
   }
   return kept;
 }
@@ -59,14 +60,19 @@ struct Cleaned {
   std::vector<Vec3> points;
   std::vector<std::uint32_t> stand_in;  // (n) index into points
   std::vector<bool> is_outlier;         // (n)
+  double noise = 0.0;                   // of the points kept
+  double spacing = 0.0;                 // the median reach of the points kept
 };
 
 Cleaned drop_outliers(std::span<const Vec3> input, int threads) {
   SpatialOrder order = sort_spatially(input);
-  const std::vector<bool> drop =
-      find_outliers(find_neighborhoods(order.points, kNeighbors, threads), threads);
+  const Neighborhoods neighborhoods = find_neighborhoods(order.points, kNeighbors, threads);
+  const std::vector<bool> drop = find_outliers(neighborhoods, threads);
   Cleaned cleaned;
   cleaned.points = select(order.points, drop);
+  cleaned.spacing = quantile(select(neighborhoods.reach, drop), 0.5);
+  const Planes planes = fit_planes(order.points, neighborhoods, kNeighbors, threads);
+  cleaned.noise = estimate_noise(select(planes.residual, drop));
   std::vector<std::uint32_t> target(order.points.size());
   std::vector<Vec3> lonely;
   std::uint32_t next = 0;
@@ -107,12 +113,8 @@ Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
   result.outlier_count = static_cast<std::size_t>(std::ranges::count(cleaned.is_outlier, true));
   if (result.points.size() <= kNeighbors) return result;
   if (progress != nullptr) progress->check();
-
-  const Neighborhoods neighborhoods =
-      find_neighborhoods(result.points, kNeighbors, options.threads);
-  result.noise = estimate_noise(
-      fit_planes(result.points, neighborhoods, kNeighbors, options.threads).residual);
-  result.spacing = quantile(neighborhoods.reach, 0.5);
+  result.noise = cleaned.noise;
+  result.spacing = cleaned.spacing;
   const bool noisy = result.noise > kNoisyShare * result.spacing;
   result.rounds = options.rounds.value_or(noisy ? kRounds : 0);
   smooth(result.points, result.rounds, options.threads, progress);

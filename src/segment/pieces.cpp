@@ -10,21 +10,26 @@ namespace morsel {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Path length to a piece's seed, in root mean square radii of the object.
-constexpr double kPieceRadius = 0.75;
-// Sight points lie this much closer together than seeds.
-constexpr double kSightRadius = 0.5;
+// How far a piece's cells lie from its seed, in root mean square radii of the object.
+constexpr double kPieceRadius = 0.17;
 constexpr std::size_t kMostPieces = 400;
 
 using Entry = std::pair<double, std::uint32_t>;
 
-// Grows Voronoi regions of seeds along paths through the cells of one region.
+// Grows Voronoi regions of seeds through the cells of one region. The distance of a cell is how far
+// the way from the seed must stray from it: the lengths of paths from cell to cell would depend on
+// the sampling, as they zigzag the more, the longer and thinner the cells are.
 class SeedField {
  public:
   SeedField(const DelaunayComplex& complex, const std::vector<std::uint32_t>& region_of_cell)
       : complex_(complex),
         region_of_cell_(region_of_cell),
-        distance_(complex.cell_count(), kInfinity) {}
+        distance_(complex.cell_count(), kInfinity) {
+    centroids_.reserve(complex.cell_count());
+    for (std::size_t c = 0; c < complex.cell_count(); ++c) {
+      centroids_.push_back(cell_centroid(complex, c));
+    }
+  }
 
   [[nodiscard]] double distance_to_seed(std::uint32_t cell) const { return distance_[cell]; }
 
@@ -32,6 +37,7 @@ class SeedField {
   template <typename Claim>
   void add(std::uint32_t seed, const Claim& claim) {
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    const Vec3 center = centroids_[seed];
     distance_[seed] = 0.0;
     claim(seed);
     queue.emplace(0.0, seed);
@@ -39,10 +45,9 @@ class SeedField {
       const auto [reached, c] = queue.top();
       queue.pop();
       if (reached > distance_[c]) continue;
-      const Vec3 from = cell_centroid(complex_, c);
       for (const std::uint32_t d : complex_.neighbors[c]) {
         if (d == kNoCell || region_of_cell_[d] != region_of_cell_[seed]) continue;
-        const double next = reached + distance(from, cell_centroid(complex_, d));
+        const double next = std::max(reached, distance(center, centroids_[d]));
         if (next >= distance_[d]) continue;
         distance_[d] = next;
         claim(d);
@@ -54,6 +59,7 @@ class SeedField {
  private:
   const DelaunayComplex& complex_;
   const std::vector<std::uint32_t>& region_of_cell_;
+  std::vector<Vec3> centroids_;
   std::vector<double> distance_;
 };
 
@@ -123,31 +129,25 @@ class Splitter {
     }
   }
 
-  // The cell farthest from all seeds, again and again: new pieces first, then mere sight points.
-  // Distances only shrink, so an entry of the queue that still holds is the farthest. Cells along
-  // the surface, with balls no larger than the spacing, are no seeds.
+  // A piece around the cell farthest from all seeds, again and again. Distances only shrink, so an
+  // entry of the queue that still holds is the farthest. Cells along the surface, with balls no
+  // larger than the spacing, are no seeds.
   void add_farthest(double spacing) {
     std::priority_queue<Entry> farthest;
     for (std::uint32_t c = 0; c < region_of_cell_.size(); ++c) {
       if (region_of_cell_[c] == kNoBasin || complex_.radii[c] <= 1.2 * spacing) continue;
       const double apart = relative_distance(c);
-      if (apart > kSightRadius && apart < kInfinity) farthest.emplace(apart, c);
+      if (apart > kPieceRadius && apart < kInfinity) farthest.emplace(apart, c);
     }
-    bool splitting = true;
-    while (!farthest.empty()) {
+    while (!farthest.empty() && pieces_.count() < kMostPieces) {
       const auto [apart, c] = farthest.top();
       farthest.pop();
       const double now = relative_distance(c);
-      if (now <= kSightRadius) continue;
+      if (now <= kPieceRadius) continue;
       if (now < apart) {
         farthest.emplace(now, c);
-        continue;
-      }
-      splitting = splitting && now > kPieceRadius && pieces_.count() < kMostPieces;
-      if (splitting) {
-        add_piece(c);
       } else {
-        add_sight(c);
+        add_piece(c);
       }
     }
   }
@@ -158,9 +158,6 @@ class Splitter {
       if (region_of_cell_[c] != kNoBasin && pieces_.piece_of_cell[c] == kNoBasin) {
         pieces_.piece_of_cell[c] = first_piece_[region_of_cell_[c]];
       }
-    }
-    for (const std::uint32_t c : pieces_.sight_cells) {
-      pieces_.sight_piece.push_back(pieces_.piece_of_cell[c]);
     }
     return std::move(pieces_);
   }
@@ -178,13 +175,8 @@ class Splitter {
     const auto piece = static_cast<std::uint32_t>(pieces_.count());
     pieces_.region.push_back(region_of_cell_[seed]);
     pieces_.extent.push_back(extent_of(seed));
-    pieces_.sight_cells.push_back(seed);
+    pieces_.seed.push_back(seed);
     field_.add(seed, [&](std::uint32_t c) { pieces_.piece_of_cell[c] = piece; });
-  }
-
-  void add_sight(std::uint32_t cell) {
-    pieces_.sight_cells.push_back(cell);
-    field_.add(cell, [](std::uint32_t) {});
   }
 
   const DelaunayComplex& complex_;

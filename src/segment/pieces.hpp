@@ -13,16 +13,15 @@ struct Pieces {
   std::vector<std::uint32_t> piece_of_cell;  ///< (c), kNoBasin where not inner
   std::vector<std::uint32_t> region;         ///< (p) the group of basins that each piece lies in
   std::vector<double> extent;                ///< (p) root mean square radius of the piece's object
-  std::vector<std::uint32_t> sight_cells;    ///< cells spread evenly over the inside …
-  std::vector<std::uint32_t> sight_piece;    ///< … and the piece that each lies in
+  std::vector<std::uint32_t> seed;           ///< (p) the cell that each piece was grown from
 
   [[nodiscard]] std::size_t count() const { return region.size(); }
 };
 
 /// `region_of_basin` groups the basins that no neck separates, numbered from 0;
 /// `object_of_basin` those that touch at all, by any number. `spacing` is the points' mean λ.
-/// Seeds are chosen farthest first along paths through the inside, so the pieces depend on the
-/// shape alone, not on its pose. Cost: O(c log c) for a bounded number of pieces.
+/// Seeds are chosen farthest first through the inside, so the pieces depend on the shape alone, not
+/// on its pose or density. Cost: O(c log c) for a bounded number of pieces.
 [[nodiscard]] Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
                                    const std::vector<std::uint32_t>& region_of_basin,
                                    const std::vector<std::uint32_t>& object_of_basin,

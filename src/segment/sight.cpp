@@ -11,9 +11,8 @@ namespace {
 
 // Root mean square radii of the object at which a pair's weight has fallen to 1/e.
 constexpr double kSightScale = 0.4;
-// Pairs of lower weight are not looked at: exp(-2²) is 0.02.
-constexpr double kSightReach = 2.0 * kSightScale;
-constexpr std::size_t kSegmentsPerPair = 3;
+// Pairs farther apart, of weights below exp(-1.5²) = 0.1, are not looked at.
+constexpr double kSightReach = 1.5 * kSightScale;
 
 // A straight walk from cell to cell.
 class SegmentWalk {
@@ -78,31 +77,20 @@ class SegmentWalk {
 SightTable find_sight(const DelaunayComplex& complex, const Interior& interior,
                       const Pieces& pieces, double spacing, int threads) {
   const std::size_t count = pieces.count();
-  std::vector<std::vector<std::uint32_t>> sights(count);
-  for (std::size_t i = 0; i < pieces.sight_cells.size(); ++i) {
-    sights[pieces.sight_piece[i]].push_back(pieces.sight_cells[i]);
-  }
   SightTable table;
   table.seen.assign(count * count, 0.0F);
   table.weight.assign(count * count, 0.0F);
   const SegmentWalk walk(complex, interior);
   parallel_rows(count, threads, [&](std::size_t a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const double apart =
-          distance(cell_centroid(complex, sights[a][0]), cell_centroid(complex, sights[b][0]));
+      const std::uint32_t from = pieces.seed[a];
+      const std::uint32_t to = pieces.seed[b];
+      const double apart = distance(cell_centroid(complex, from), cell_centroid(complex, to));
       const double relative = apart / pieces.extent[a];
       if (!(relative < kSightReach)) continue;
-      const std::size_t pairs =
-          std::min(std::max(sights[a].size(), sights[b].size()), kSegmentsPerPair);
-      std::size_t inside = 0;
-      for (std::size_t i = 0; i < pairs; ++i) {
-        const std::uint32_t from = sights[a][i % sights[a].size()];
-        const std::uint32_t to = sights[b][i % sights[b].size()];
-        inside += walk.stays_inside(from, to, 0.5 * spacing) ? 1 : 0;
-      }
       const double scaled = relative / kSightScale;
       table.seen[a * count + b] = table.seen[b * count + a] =
-          static_cast<float>(static_cast<double>(inside) / static_cast<double>(pairs));
+          walk.stays_inside(from, to, 0.5 * spacing) ? 1.0F : 0.0F;
       table.weight[a * count + b] = table.weight[b * count + a] =
           static_cast<float>(std::exp(-scaled * scaled));
     }
