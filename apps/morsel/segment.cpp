@@ -27,6 +27,7 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 constexpr const char* kExamples = R"(Examples:
   morsel segment scan.ply                           a table of the parts
+  morsel segment scan.ply --html parts.html         a page to turn and cut the parts in
   morsel segment scan.ply -o parts.ply --picture parts.png
   morsel segment scan.xyz --parts 5 --labels labels.txt
   morsel segment chair.off --sample 50000 --noise 0.003 --report chair.json
@@ -43,12 +44,14 @@ struct Arguments {
   Output points{"--output", {}, {".ply", ".pcd", ".xyz", ".npz"}};
   Output report{"--report", {}, {".json"}};
   Output picture{"--picture", {}, {".png", ".svg"}};
+  Output html{"--html", {}, {".html", ".htm"}};
   std::vector<std::string> mesh_options;  // the options given that a point cloud has no use for
 
-  [[nodiscard]] std::vector<Output> outputs() const { return {labels, points, report, picture}; }
+  [[nodiscard]] std::vector<Output> outputs() const {
+    return {labels, points, report, picture, html};
+  }
   [[nodiscard]] bool any_output() const {
-    return !(labels.path.empty() && points.path.empty() && report.path.empty() &&
-             picture.path.empty());
+    return std::ranges::any_of(outputs(), [](const Output& o) { return !o.path.empty(); });
   }
 };
 
@@ -151,11 +154,18 @@ void add_outputs(CLI::App& app, Arguments& arguments) {
              "Coloured points with their part: .ply .pcd .xyz .npz");
   add_output(app, "--report", "FILE.json", arguments.report, "Everything that was measured");
   add_output(app, "--picture", "FILE", arguments.picture, "Drawing of the parts: .png .svg");
+  add_output(app, "--html", "FILE.html", arguments.html,
+             "Page with the parts in 3D, for a browser");
 }
 
 // Refuses options that the chosen method would ignore, and notes those that a cloud would.
 void check_combinations(const CLI::App& app, Arguments& arguments) {
   if (arguments.file.empty()) throw CLI::ValidationError("FILE", "the file name is empty");
+  if (!arguments.html.path.empty() && !has_html_viewer()) {
+    throw CLI::ValidationError("--html",
+                               "this build of morsel has no viewer; install Node.js and "
+                               "npm and build it again");
+  }
   const bool paper = arguments.options.interior.method == Method::kPaper;
   for (const char* name : {"--big-ball-ratio", "--deep-angle"}) {
     if (!paper && app.count(name) > 0) {
@@ -205,6 +215,7 @@ std::string table(const Segmentation& result) {
 }
 
 constexpr const char* kHint =
+    "To look at them: --html parts.html\n"
     "To keep them: -o parts.ply, --labels labels.txt, --report report.json, --picture parts.png\n";
 
 struct Written {
@@ -250,12 +261,19 @@ std::vector<Written> results(const Arguments& arguments, const PointCloud& cloud
            [&](const std::filesystem::path& path) { write_labels(path, result.labels); }},
           {&arguments.points, count,
            [&](const std::filesystem::path& path) { write_points(path, cloud, result.labels); }},
-          {&arguments.picture, "picture", [&](const std::filesystem::path& path) {
+          {&arguments.picture, "picture",
+           [&](const std::filesystem::path& path) {
              PictureOptions options;
              const std::size_t parts = result.parts.parts.size();
              options.title = fmt::format("{}: {} part{}", name_of_input(arguments), parts,
                                          parts == 1 ? "" : "s");
              write_picture(path, cloud.points, result.labels, options);
+           }},
+          {&arguments.html, "page for a browser", [&](const std::filesystem::path& path) {
+             HtmlOptions options;
+             options.name = name_of_input(arguments);
+             options.merge_ratio = result.parts.merge_ratio;
+             write_html(path, cloud.points, result.tree, options);
            }}};
 }
 

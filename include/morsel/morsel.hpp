@@ -6,6 +6,7 @@
 #include <morsel/delaunay.hpp>
 #include <morsel/denoise.hpp>
 #include <morsel/error.hpp>
+#include <morsel/html.hpp>
 #include <morsel/interior.hpp>
 #include <morsel/io.hpp>
 #include <morsel/picture.hpp>

@@ -377,7 +377,7 @@ Cloud normalize(std::span<const Vec3> points, std::span<const int> labels) {
   const Vec3 half = 0.5 * box.high - 0.5 * box.low;
   const double longest = std::max({half.x, half.y, half.z});
   const double divisor = longest > 0.0 ? longest : 1.0;
-  Cloud cloud;
+  Cloud cloud{{}, {}, center, divisor};
   cloud.points.reserve(points.size());
   cloud.labels.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -396,7 +396,7 @@ Cloud merge_on_grid(const Cloud& cloud, float cell) {
     entries[i] = {cell_code(cloud.points[i], cell), cloud.labels[i], static_cast<std::uint32_t>(i)};
   });
   tbb::parallel_sort(entries);
-  Cloud merged;
+  Cloud merged{{}, {}, cloud.center, cloud.scale};
   for (std::size_t begin = 0; begin < entries.size();) {
     std::size_t end = begin;
     while (end < entries.size() && entries[end].code == entries[begin].code) ++end;

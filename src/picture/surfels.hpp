@@ -10,10 +10,13 @@
 
 namespace morsel::picture {
 
-/// Points moved and scaled so that their bounding box fits [-1, 1]^3, with their labels.
+/// Points moved and scaled so that their bounding box fits [-1, 1]^3, with their labels. A point p
+/// of the input is at (p - center) / scale.
 struct Cloud {
   std::vector<Eigen::Vector3f> points;
   std::vector<int> labels;
+  Vec3 center = {};
+  double scale = 1.0;
 };
 
 /// A half-space that cuts off a surfel: what lies further than `reach` along `outward`.

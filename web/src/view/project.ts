@@ -1,0 +1,170 @@
+// Points on the screen, reckoned by the processor: which part is under the pointer, and where a
+// part shows itself best.
+import type { Points } from '../shape/format';
+
+/** Where and how the points are drawn. */
+export interface Projection {
+  /** World to clip space, column by column. */
+  matrix: ArrayLike<number>;
+  /** Of the canvas, in CSS pixels. */
+  width: number;
+  height: number;
+  /** Of one unit at distance 1, in CSS pixels. */
+  pixels: number;
+}
+
+/** What is drawn of each part. */
+export interface Placement {
+  partOfPiece: Int32Array;
+  /** (parts, 3) */
+  offsets: Float32Array;
+  /** (parts) 0: hidden */
+  shown: Uint8Array;
+}
+
+type Visit = (part: number, x: number, y: number, depth: number, point: number) => void;
+
+// Calls `visit` for every `stride`-th shown point in front of the camera; depth is the distance.
+function project(
+  points: Points,
+  placement: Placement,
+  projection: Projection,
+  stride: number,
+  visit: Visit,
+): void {
+  const { positions, pieces } = points;
+  const { partOfPiece, offsets, shown } = placement;
+  const { matrix: m, width, height } = projection;
+  for (let i = 0; i < points.count; i += stride) {
+    if (pieces[i] >= partOfPiece.length) continue;
+    const part = partOfPiece[pieces[i]];
+    if (!shown[part]) continue;
+    const x = positions[3 * i] / 32767.5 - 1 + offsets[3 * part];
+    const y = positions[3 * i + 1] / 32767.5 - 1 + offsets[3 * part + 1];
+    const z = positions[3 * i + 2] / 32767.5 - 1 + offsets[3 * part + 2];
+    const w = m[3] * x + m[7] * y + m[11] * z + m[15];
+    if (w <= 0) continue;
+    const clipX = (m[0] * x + m[4] * y + m[8] * z + m[12]) / w;
+    const clipY = (m[1] * x + m[5] * y + m[9] * z + m[13]) / w;
+    visit(part, (0.5 + 0.5 * clipX) * width, (0.5 - 0.5 * clipY) * height, w, i);
+  }
+}
+
+/** The part that is seen at a place of the canvas, or null. Cost: O(n), some milliseconds. */
+export function partAt(
+  points: Points,
+  placement: Placement,
+  projection: Projection,
+  x: number,
+  y: number,
+): number | null {
+  const unit = (points.longestRadius / 255) * projection.pixels;
+  let best: number | null = null;
+  let nearest = Infinity;
+  project(points, placement, projection, 1, (part, px, py, depth, i) => {
+    const radius = Math.max(2, (points.radii[2 * i] * unit) / depth);
+    if (depth >= nearest || (px - x) ** 2 + (py - y) ** 2 > radius * radius) return;
+    nearest = depth;
+    best = part;
+  });
+  return best;
+}
+
+export interface Anchor {
+  part: number;
+  x: number;
+  y: number;
+  depth: number;
+}
+
+const kCell = 8; // CSS pixels
+const kEnoughPoints = 30_000;
+const kLeastReach = 2; // cells around an anchor that show its part
+
+/**
+ * For each part that shows itself widely enough the place furthest inside what is seen of it.
+ * Cost: O(n + cells).
+ */
+export function findAnchors(
+  points: Points,
+  placement: Placement,
+  projection: Projection,
+): Anchor[] {
+  const columns = Math.ceil(projection.width / kCell);
+  const rows = Math.ceil(projection.height / kCell);
+  const seen = new Int32Array(columns * rows).fill(-1);
+  const depths = new Float32Array(columns * rows).fill(Infinity);
+  const stride = Math.ceil(points.count / kEnoughPoints);
+  project(points, placement, projection, stride, (part, x, y, depth) => {
+    const column = Math.floor(x / kCell);
+    const row = Math.floor(y / kCell);
+    if (column < 0 || row < 0 || column >= columns || row >= rows) return;
+    const cell = row * columns + column;
+    if (depth >= depths[cell]) return;
+    depths[cell] = depth;
+    seen[cell] = part;
+  });
+  const reach = reachWithin(seen, columns, rows);
+  return deepest(seen, reach, depths, columns, placement.shown.length);
+}
+
+// Steps from each cell to the nearest one of another part, by two sweeps; diagonals count 1.4.
+function reachWithin(seen: Int32Array, columns: number, rows: number): Float32Array {
+  const reach = new Float32Array(seen.length);
+  const relax = (cell: number, column: number, row: number, dx: number, dy: number) => {
+    const x = column + dx;
+    const y = row + dy;
+    const length = dx !== 0 && dy !== 0 ? 1.4 : 1;
+    const other = y * columns + x;
+    const inside = x >= 0 && y >= 0 && x < columns && y < rows && seen[other] === seen[cell];
+    reach[cell] = Math.min(reach[cell], inside ? reach[other] + length : 1);
+  };
+  reach.fill(Infinity);
+  for (let row = 0; row < rows; ++row) {
+    for (let column = 0; column < columns; ++column) {
+      const cell = row * columns + column;
+      for (const [dx, dy] of [
+        [-1, 0],
+        [-1, -1],
+        [0, -1],
+        [1, -1],
+      ])
+        relax(cell, column, row, dx, dy);
+    }
+  }
+  for (let row = rows - 1; row >= 0; --row) {
+    for (let column = columns - 1; column >= 0; --column) {
+      const cell = row * columns + column;
+      for (const [dx, dy] of [
+        [1, 0],
+        [1, 1],
+        [0, 1],
+        [-1, 1],
+      ])
+        relax(cell, column, row, dx, dy);
+    }
+  }
+  return reach;
+}
+
+function deepest(
+  seen: Int32Array,
+  reach: Float32Array,
+  depths: Float32Array,
+  columns: number,
+  parts: number,
+): Anchor[] {
+  const best = new Int32Array(parts).fill(-1);
+  seen.forEach((part, cell) => {
+    if (part < 0 || reach[cell] < kLeastReach) return;
+    if (best[part] < 0 || reach[cell] > reach[best[part]]) best[part] = cell;
+  });
+  const anchors: Anchor[] = [];
+  best.forEach((cell, part) => {
+    if (cell < 0) return;
+    const x = ((cell % columns) + 0.5) * kCell;
+    const y = (Math.floor(cell / columns) + 0.5) * kCell;
+    anchors.push({ part, x, y, depth: depths[cell] });
+  });
+  return anchors;
+}
