@@ -6,4 +6,5 @@ import { Theme } from './ui/theme';
 
 const shape = parseShape(document.getElementById('shape')!.textContent!);
 document.title = `${shape.name} – morsel`;
-new PartView(document.body, shape, new Theme());
+const main = document.body.appendChild(document.createElement('main'));
+new PartView(main, shape, new Theme());

@@ -37,7 +37,7 @@ export class Panel {
   private readonly formNote = make('p', { class: 'note' });
   private readonly showAllButton: HTMLButtonElement;
   private readonly themeButton: HTMLButtonElement;
-  private readonly card: PartCard;
+  readonly card: PartCard;
   private readonly list: PartList;
 
   constructor(
@@ -83,7 +83,7 @@ export class Panel {
     this.card = new PartCard(events);
     this.list = new PartList(events);
     this.element = make(
-      'main',
+      'div',
       { class: 'panel' },
       this.header(),
       this.levelSection(),
@@ -188,7 +188,7 @@ export class Panel {
       'section',
       {},
       make('h2', {}, 'Parts', this.showAllButton),
-      this.card.element,
+      make('p', { class: 'note' }, 'Click a part, in the picture or here, to see its measures.'),
       this.list.element,
     );
   }
@@ -243,7 +243,6 @@ export class Panel {
   select(part: number | null): void {
     this.state.select(part);
     this.actions.change(part === null ? 'No part selected' : this.describe(part));
-    if (part !== null) this.list.reveal(part);
   }
 
   selectNext(by: number): void {

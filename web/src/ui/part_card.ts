@@ -1,6 +1,6 @@
 // The measures of the part that is selected.
 import type { View } from '../shape/model';
-import { counted, length, percent } from '../shape/text';
+import { length, percent } from '../shape/text';
 import { make } from './dom';
 
 export interface PartEvents {
@@ -30,15 +30,13 @@ export function swatch(color: readonly number[]): HTMLElement {
 }
 
 export class PartCard {
-  readonly element = make('div', { class: 'card' });
+  readonly element = make('section', { class: 'card', 'aria-label': 'Selected part' });
 
   constructor(private readonly events: PartEvents) {}
 
   refresh(view: View, selected: number | null, hidden: boolean): void {
-    const children =
-      selected === null
-        ? [make('p', { class: 'note' }, 'Click a part, in the picture or in the list.')]
-        : this.measures(view, selected, hidden);
+    const children = selected === null ? [] : this.measures(view, selected, hidden);
+    this.element.hidden = selected === null;
     // The button that was just pressed keeps the keyboard.
     const focused = this.focusedName();
     this.element.replaceChildren(...children);
@@ -63,14 +61,16 @@ export class PartCard {
     ];
     const button = (name: string, text: string, click: () => void) =>
       make('button', { type: 'button', 'data-name': name, click }, text);
-    const points = `${percent(part.pointCount / view.pointCount)} (${counted(part.pointCount, 'point')})`;
     return [
       make('h3', {}, swatch(view.colors[selected]), `Part ${selected}`),
       make(
         'dl',
         {},
         ...row('Volume', `${percent(part.volume / view.volume)} of the shape`),
-        ...row('Surface', points),
+        ...row(
+          'Points',
+          `${percent(part.pointCount / view.pointCount)} of them (${part.pointCount.toLocaleString('en')})`,
+        ),
         ...row('Thickness', length(2 * part.ballRadius)),
         ...row('Touches', ...this.neighbors(view, selected)),
       ),

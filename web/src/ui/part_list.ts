@@ -51,11 +51,6 @@ export class PartList {
     setText(this.more, left > 0 ? `… and ${left.toLocaleString('en')} smaller` : '');
   }
 
-  /** Scrolls the row of a part into sight. */
-  reveal(part: number): void {
-    this.rows[part]?.element.scrollIntoView({ block: 'nearest' });
-  }
-
   private makeRow(part: number): Row {
     const { events } = this;
     const patch = swatch([0, 0, 0]);

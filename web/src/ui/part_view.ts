@@ -39,8 +39,15 @@ export class PartView {
     this.canvas.setAttribute('aria-describedby', help);
     const stage = make('div', { class: 'stage' }, this.canvas, overlay, this.tip, this.panel.tools);
     this.host.append(
-      make('div', { class: 'part-view' }, stage, this.panel.element, this.news),
-      make('p', { class: 'unseen', id: help }, kKeys),
+      make(
+        'section',
+        { class: 'part-view', 'aria-label': `Parts of ${shape.name}` },
+        stage,
+        this.panel.card.element,
+        this.panel.element,
+        this.news,
+        make('p', { class: 'unseen', id: help }, kKeys),
+      ),
     );
     this.stage = this.startStage(overlay, model, stage);
     this.sizes.observe(stage);

@@ -31,6 +31,7 @@ uniform float uSize;       // units that count as a step in depth
 uniform int uFactor;       // samples a pixel and direction
 uniform int uReach;        // samples to look around for lines
 uniform vec3 uBackground;
+uniform vec3 uRim;         // colour of silhouettes against the background
 out vec4 color;
 float distanceAt(ivec2 at) {
   float depth = texelFetch(uDepth, at, 0).r;
@@ -44,17 +45,20 @@ vec4 sampleAt(ivec2 at, ivec2 size) {
   float mine = distanceAt(at);
   float edge = 0.0;
   float border = 0.0;
+  float rim = 0.0;
   for (int i = 0; i < 8; ++i) {
     float angle = 0.785398 * float(i);
     vec2 step = float(uReach) * vec2(cos(angle), sin(angle));
     ivec2 beside = clamp(at + ivec2(round(step)), ivec2(0), size - 1);
     vec4 there = texelFetch(uColor, beside, 0);
     float deeper = distanceAt(beside) - mine;
-    edge += clamp(deeper / uSize - 0.35, 0.0, 1.0);
+    if (deeper > 1e5) rim += 1.0;
+    else edge += clamp(deeper / uSize - 0.35, 0.0, 1.0);
     if (there.a > 0.0 && there.a != here.a && abs(deeper) < uSize) border += 1.0;
   }
   float dark = min(1.0, 0.14 * edge) + min(0.5, 0.13 * border);
   here.rgb *= 1.0 - 0.75 * min(1.0, dark);
+  here.rgb = mix(here.rgb, uRim, min(0.7, 0.14 * rim));
   return here;
 }
 void main() {
@@ -67,6 +71,13 @@ void main() {
   color = vec4(sum / float(uFactor * uFactor), 1.0);
 }
 `;
+
+export interface FinishStyle {
+  /** Samples a pixel and direction. */
+  factor: number;
+  background: Color;
+  dark: boolean;
+}
 
 export class Finish {
   private readonly target: WebGLRenderTarget;
@@ -95,6 +106,7 @@ export class Finish {
         uFactor: { value: 1 },
         uReach: { value: 1 },
         uBackground: { value: new Color() },
+        uRim: { value: new Color() },
       },
     });
     this.quad = new Mesh(new PlaneGeometry(2, 2), this.material);
@@ -102,14 +114,14 @@ export class Finish {
     this.scene.add(this.quad);
   }
 
-  /** Draws the scene on the canvas with `factor`² samples a pixel. */
+  /** Draws the scene on the canvas. */
   render(
     renderer: WebGLRenderer,
     scene: Scene,
     camera: PerspectiveCamera,
-    factor: number,
-    background: Color,
+    style: FinishStyle,
   ): void {
+    const { factor, background, dark } = style;
     const { width, height } = renderer.domElement;
     this.target.setSize(width * factor, height * factor);
     const { uniforms } = this.material;
@@ -117,6 +129,7 @@ export class Finish {
     uniforms.uFactor.value = factor;
     uniforms.uReach.value = Math.max(1, Math.round((factor * height) / 700));
     uniforms.uBackground.value.copy(background);
+    uniforms.uRim.value.setScalar(dark ? 0.75 : 0.1);
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0x000000, 0);
     renderer.clear();

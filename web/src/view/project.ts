@@ -77,8 +77,9 @@ export interface Anchor {
   depth: number;
 }
 
-const kCell = 8; // CSS pixels
+const kCell = 5; // CSS pixels
 const kEnoughPoints = 30_000;
+const kMostRadius = 40; // CSS pixels
 const kLeastReach = 2; // cells around an anchor that show its part
 
 /**
@@ -95,14 +96,22 @@ export function findAnchors(
   const seen = new Int32Array(columns * rows).fill(-1);
   const depths = new Float32Array(columns * rows).fill(Infinity);
   const stride = Math.ceil(points.count / kEnoughPoints);
-  project(points, placement, projection, stride, (part, x, y, depth) => {
-    const column = Math.floor(x / kCell);
-    const row = Math.floor(y / kCell);
-    if (column < 0 || row < 0 || column >= columns || row >= rows) return;
-    const cell = row * columns + column;
-    if (depth >= depths[cell]) return;
-    depths[cell] = depth;
-    seen[cell] = part;
+  // Fewer points are drawn larger, so that no gaps show what lies behind.
+  const unit = (points.longestRadius / 255) * projection.pixels * Math.sqrt(stride);
+  project(points, placement, projection, stride, (part, x, y, depth, i) => {
+    const radius = Math.min(kMostRadius, (points.radii[2 * i] * unit) / depth);
+    const left = Math.max(0, Math.floor((x - radius) / kCell));
+    const right = Math.min(columns - 1, Math.floor((x + radius) / kCell));
+    const top = Math.max(0, Math.floor((y - radius) / kCell));
+    const bottom = Math.min(rows - 1, Math.floor((y + radius) / kCell));
+    for (let row = top; row <= bottom; ++row) {
+      for (let column = left; column <= right; ++column) {
+        const cell = row * columns + column;
+        if (depth >= depths[cell]) continue;
+        depths[cell] = depth;
+        seen[cell] = part;
+      }
+    }
   });
   const reach = reachWithin(seen, columns, rows);
   return deepest(seen, reach, depths, columns, placement.shown.length);

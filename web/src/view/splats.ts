@@ -19,6 +19,7 @@ uniform mat4 projectionMatrix;
 uniform float uPixels;  // of one unit at distance 1
 uniform float uRadius;  // of the longest half axis
 uniform float uDot;     // pixels of a dot, 0: ellipses
+uniform int uEvery;     // one of so many points is a dot
 in vec3 position;
 in vec4 turn;
 in vec2 radii;
@@ -38,7 +39,7 @@ void main() {
   vId = look.a;
   vec4 at = modelViewMatrix * vec4(position * 2.0 - 1.0 + place.xyz, 1.0);
   gl_Position = projectionMatrix * at;
-  bool left_out = uDot > 0.0 && gl_VertexID % 3 != 0;
+  bool left_out = uDot > 0.0 && gl_VertexID % uEvery != 0;
   if (place.w == 0.0 || left_out) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   vec4 q = normalize(turn);
   mat3 view = mat3(modelViewMatrix);
@@ -71,7 +72,7 @@ void main() {
   gl_FragDepth = gl_FragCoord.z;
   if (uDot > 0.0) {
     if (dot(at, at) > 1.0) discard;
-    color = vec4(mix(uBackground, vColor, 0.55), 0.0);
+    color = vec4(mix(uBackground, vColor, 0.65), 0.0);
     return;
   }
   vec3 offset = vec3(at, 0.0);
@@ -92,6 +93,8 @@ void main() {
   color = vec4(lit(vColor, normal), vId);
 }
 `;
+
+const kDots = 10_000; // more of them hide what they surround
 
 export class Splats {
   readonly object: ThreePoints;
@@ -114,6 +117,7 @@ export class Splats {
         uPixels: { value: 1 },
         uRadius: { value: points.longestRadius },
         uDot: { value: 0 },
+        uEvery: { value: Math.ceil(points.count / kDots) },
         uBackground: { value: new Color() },
       },
     });

@@ -46,9 +46,9 @@ export interface Look {
 const kFieldOfView = 30; // degrees
 const kMostRatio = 2; // pixels of the canvas in a CSS pixel
 const kSlow = 30; // milliseconds between frames; slower ones are drawn more coarsely
-const kNode = 0.035; // radius of a node of the part graph, drawn units
+const kNode = 0.045; // radius of a node of the part graph, drawn units
 const kMostNumbers = 40; // more of them over see-through parts hide the picture
-const kBackground = { light: [0.965, 0.97, 0.978], dark: [0.075, 0.082, 0.1] } as const;
+const kBackground = { light: [0.965, 0.97, 0.978], dark: [0.1, 0.108, 0.128] } as const;
 
 const mix = (a: readonly number[], b: readonly number[], share: number) =>
   a.map((x, i) => x + share * (b[i] - x));
@@ -164,7 +164,7 @@ export class Stage {
       if (layers.form === 'surface') add(ballMatrix(center, kNode));
       for (const { part: other, neckRadius } of part.neighbors) {
         if (other < i || !looks[other].shown) continue;
-        const thickness = Math.max(0.006, (0.3 * neckRadius) / scale);
+        const thickness = Math.min(0.025, Math.max(0.005, (0.12 * neckRadius) / scale));
         const matrix = rodMatrix(this.centers[i], this.centers[other], thickness);
         rods.push({ matrix, color: this.lineColor(), id: 254 });
       }
@@ -220,7 +220,7 @@ export class Stage {
   private distanceFor(extent: number): number {
     const half = (kFieldOfView / 2) * (Math.PI / 180);
     const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
-    return (1.02 * extent) / Math.sin(narrow);
+    return (0.96 * extent) / Math.sin(narrow);
   }
 
   // Keeps what is shown as large as it was when the parts move.
@@ -271,9 +271,13 @@ export class Stage {
     this.camera.far = distance + 2 * this.fitted;
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
-    const dot = this.seeThrough ? 1.6 * ratio * factor : 0;
+    const dot = this.seeThrough ? 1.8 * ratio * factor : 0;
     this.splats.update(this.pixels() * ratio * factor, dot, this.background);
-    this.finish.render(this.renderer, this.scene, this.camera, factor, this.background);
+    this.finish.render(this.renderer, this.scene, this.camera, {
+      factor,
+      background: this.background,
+      dark: look.dark,
+    });
     this.drawOverlay(look);
   }
 
@@ -300,7 +304,10 @@ export class Stage {
         depth: at.z,
       };
     });
-    return shown.filter(({ part }) => this.placement!.shown[part] && part < kMostNumbers);
+    return shown.filter(
+      ({ part, x, y }) =>
+        this.placement!.shown[part] && part < kMostNumbers && this.solidAt(x, y) === part,
+    );
   }
 
   // CSS pixels of one unit at distance 1.
