@@ -14,7 +14,7 @@ test:  ## Build, run every test and the quick lint checks
 	@scripts/test.sh
 
 sanitize:  ## Run the tests under address and undefined-behaviour sanitizers
-	@scripts/install-dependencies.sh
+	@scripts/install-dependencies.sh --test
 	@cmake --preset asan-ubsan
 	@cmake --build --preset asan-ubsan
 	@ctest --preset asan-ubsan
@@ -28,7 +28,7 @@ bench:  ## Run the benchmarks: ARGS="segmentation --help"
 lint:  ## Check formatting, layers, shell scripts and clang-tidy
 	@scripts/lint.sh
 
-format:  ## Format all C++ files in place
+format:  ## Format all C++ and TypeScript files in place
 	@scripts/install-dependencies.sh --lint
 	@scripts/format.sh
 

@@ -34,11 +34,12 @@ _morsel() {
     -o | --output) _morsel_files 'ply|pcd|xyz|npz' ;;
     --report) _morsel_files json ;;
     --picture) _morsel_files 'png|svg' ;;
+    --html) _morsel_files 'html|htm' ;;
     --sample | --noise | --seed | --parts | --merge-ratio | --big-ball-ratio | --deep-angle | \
       --threads) ;;
     *)
       if [[ $cur == -* ]]; then
-        mapfile -t COMPREPLY < <(compgen -W '--labels --output --report --picture --parts
+        mapfile -t COMPREPLY < <(compgen -W '--labels --output --report --picture --html --parts
           --merge-ratio --method --big-ball-ratio --deep-angle --denoise --threads --sample --noise
           --seed --help' -- "$cur")
       else

@@ -10,6 +10,7 @@ complete -c morsel -n $segment -r -F -l labels -d 'Part of each input point, one
 complete -c morsel -n $segment -r -F -s o -l output -d 'Coloured points: .ply .pcd .xyz .npz'
 complete -c morsel -n $segment -r -F -l report -d 'Everything that was measured: .json'
 complete -c morsel -n $segment -r -F -l picture -d 'Drawing of the parts: .png .svg'
+complete -c morsel -n $segment -r -F -l html -d 'Page with the parts in 3D: .html'
 complete -c morsel -n $segment -x -l parts -d 'This many parts'
 complete -c morsel -n $segment -x -l merge-ratio -d 'Merge parts below this ratio'
 complete -c morsel -n $segment -x -l method -a 'default paper' -d 'Robust rules, or the paper'

@@ -30,16 +30,18 @@ summarize() {
     }'
 }
 
-# Segments FILE [OPTION…], writes out/NAME.png, out/NAME_parts.ply and out/NAME.json, and adds a
-# row to the table.
+# Segments FILE [OPTION…], writes out/NAME.html, .png, .json and out/NAME_parts.ply, and adds a row
+# to the table.
 segment() {
-  local file=$1 name result=0 began=$EPOCHREALTIME
+  local file=$1 name result=0 began=$EPOCHREALTIME page=()
   name=$(basename "$file")
   name=${name%.*}
+  # A program built without Node.js writes no pages.
+  if [[ -s build/release/src/html/viewer.html ]]; then page=(--html "$out/$name.html"); fi
   echo
   echo "\$ morsel segment $*"
   "$morsel" segment "$@" --picture "$out/$name.png" -o "$out/${name}_parts.ply" \
-    --report "$out/$name.json" --labels "$labels" || result=$?
+    --report "$out/$name.json" --labels "$labels" "${page[@]}" || result=$?
   if [[ $result -eq 0 ]]; then
     local seconds
     seconds=$(awk "BEGIN { printf \"%.1f\", $EPOCHREALTIME - $began }")
@@ -73,7 +75,7 @@ for row in "${rows[@]}"; do
 done
 echo
 if [[ $status -eq 0 ]]; then
-  echo "Look at $out/*.png (pictures), $out/*_parts.ply (points with colour and part number," \
+  echo "Look at $out/*.html (in a browser), $out/*.png (pictures), $out/*_parts.ply (points with colour and part number," \
     "for MeshLab or CloudCompare) and $out/*.json (reports)."
 fi
 exit "$status"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Formats all C++ files in place; --check only says which are not formatted.
+# Formats all C++ files in place, and the viewer where its packages are installed; --check only
+# says which C++ files are not formatted (the test viewer_check looks at the viewer).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,3 +12,4 @@ for folder in include src apps tests bindings examples; do
 done
 find "${folders[@]}" -type f \( -name '*.cpp' -o -name '*.hpp' \) -print0 |
   xargs -0 -r clang-format "${mode[@]}"
+if [[ ${1:-} != --check && -d web/node_modules ]]; then npm --prefix web run --silent format; fi

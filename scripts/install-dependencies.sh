@@ -2,7 +2,8 @@
 # Installs the Debian 12 packages that morsel needs and this machine lacks. Instant and offline
 # when nothing is missing.
 #   scripts/install-dependencies.sh          what building, the tests and the demo need
-#   scripts/install-dependencies.sh --lint   also what `make lint` and `make test` need
+#   scripts/install-dependencies.sh --lint   also what `make lint` needs
+#   scripts/install-dependencies.sh --test   also what `make test` needs
 #   scripts/install-dependencies.sh --dev    also what every other target needs
 set -euo pipefail
 
@@ -11,13 +12,16 @@ packages=(
   libcgal-dev libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev
   liblzf-dev libnanoflann-dev zlib1g-dev libgtest-dev
 )
+# Node.js builds the viewer; one that did not come from Debian brings its npm along.
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then packages+=(nodejs npm); fi
 lint=(clang-format clang-tidy-16 shellcheck) # 14, the default, cannot parse <ranges>
 case "${1:-}" in
   "") ;;
   --lint) packages+=("${lint[@]}") ;;
-  --dev) packages+=("${lint[@]}" doxygen) ;;
+  --test) packages+=("${lint[@]}" chromium) ;;
+  --dev) packages+=("${lint[@]}" chromium doxygen) ;;
   *)
-    echo "usage: $0 [--lint|--dev]" >&2
+    echo "usage: $0 [--lint|--test|--dev]" >&2
     exit 2
     ;;
 esac

@@ -14,7 +14,7 @@ step() {
   echo
 }
 
-step "install what is missing" scripts/install-dependencies.sh --lint
+step "install what is missing" scripts/install-dependencies.sh --test
 step "configure" cmake --preset release
 step "build" cmake --build --preset release
 step "test" ctest --preset release

@@ -11,5 +11,5 @@ export default defineConfig({
     emptyOutDir: false,
     rollupOptions: { input: 'viewer.html' },
   },
-  test: { testTimeout: 60_000, hookTimeout: 120_000, fileParallelism: false },
+  test: { testTimeout: 300_000, hookTimeout: 300_000, fileParallelism: false },
 });

@@ -355,6 +355,21 @@ class Segment(CliTest):
         root = xml.etree.ElementTree.parse(self.folder / "p.svg").getroot()
         self.assertTrue(root.tag.endswith("svg"))
 
+    def test_page(self):
+        name = "<script>alert(1)<!--&\"'.xyz"
+        self.dumbbell().rename(self.folder / name)
+        done = self.run_morsel("segment", name, "--parts", "2", "--html", "p.html")
+        if done.returncode == USAGE:
+            self.assertRegex(done.stderr.decode(), r"\Amorsel: --html: [^\n]*no viewer[^\n]*\n\Z")
+            self.skipTest("built without the viewer")
+        self.assertEqual((done.returncode, done.stderr.decode()), (DONE, ""))
+        page = (self.folder / "p.html").read_text(encoding="utf-8")
+        self.assertNotIn("alert(1)<", page)
+        shape = json.loads(re.search(r'id="shape">([^<]*)<', page).group(1))
+        self.assertEqual((shape["name"], shape["points_of_input"]), (name, 4000))
+        self.assertGreaterEqual(shape["merge_ratio"], 1.0)
+        self.refuse(USAGE, "must end in \\.html", "segment", name, "--html", "p.txt")
+
     def test_input_properties_stay(self):
         rows = [f"{x:.9g} {y:.9g} {z:.9g} {i}"
                 for i, (x, y, z) in enumerate(shapes.dumbbell(2000))]

@@ -73,6 +73,7 @@ export class Stage {
   private lastFrame = 0;
   private settle = 0;
   private coarse = false;
+  private readonly software: boolean; // no graphics card: one sample a pixel
 
   /** Throws when the browser has no WebGL 2. */
   constructor(
@@ -82,6 +83,7 @@ export class Stage {
   ) {
     const { points, tree } = model.shape;
     this.renderer = new WebGLRenderer({ canvas, powerPreference: 'high-performance' });
+    this.software = isSoftware(this.renderer);
     this.table = new PartTable(tree.count);
     this.splats = new Splats(points, this.table);
     this.balls = new Solids(sphereGeometry(), tree.count);
@@ -233,7 +235,7 @@ export class Stage {
   resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    const ratio = Math.min(devicePixelRatio, kMostRatio);
+    const ratio = this.software ? 1 : Math.min(devicePixelRatio, kMostRatio);
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.overlay.width = this.canvas.width;
@@ -265,7 +267,7 @@ export class Stage {
     const { look } = this;
     if (!look || this.canvas.width === 0) return;
     const ratio = this.renderer.getPixelRatio();
-    const factor = coarse || ratio >= 1.5 ? 1 : 2;
+    const factor = coarse || this.software || ratio >= 1.5 ? 1 : 2;
     const distance = this.camera.position.distanceTo(this.controls.target);
     this.camera.near = Math.max(0.01, distance - 2 * this.fitted);
     this.camera.far = distance + 2 * this.fitted;
@@ -360,6 +362,13 @@ export class Stage {
       sheet.toBlob((blob) => (blob ? done(blob) : fail(new Error('no picture'))), 'image/png'),
     );
   }
+}
+
+function isSoftware(renderer: WebGLRenderer): boolean {
+  const gl = renderer.getContext();
+  const names = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
+  return /swiftshader|llvmpipe|software/i.test(name);
 }
 
 function extentOf(positions: Uint16Array): number {

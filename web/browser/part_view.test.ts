@@ -1,0 +1,419 @@
+// A page as its user meets it: written by the program, opened from the disk in Chromium.
+// MORSEL names the program, CHROMIUM the browser; tests/viewer/CMakeLists.txt sets both.
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { chromium, type Browser, type BrowserContextOptions, type Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+
+const { MORSEL = 'morsel', CHROMIUM = '/usr/bin/chromium' } = process.env;
+const kName = `<img src=x onerror=alert(1)>&"'\u202e.xyz`;
+const kArguments = [
+  '--no-sandbox',
+  '--no-first-run',
+  '--disable-quic',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+];
+
+// Two balls and a bar between them, evenly spread; the right ball is the larger.
+function dumbbell(count: number): string {
+  const lines: string[] = [];
+  for (let i = 0; i < count; ++i) {
+    const angle = i * Math.PI * (3 - Math.sqrt(5));
+    const z = 1 - (2 * i + 1) / count;
+    const r = Math.sqrt(1 - z * z);
+    const [x, y] = [r * Math.cos(angle), r * Math.sin(angle)];
+    const [center, radius] = i % 2 === 0 ? [-2, 1] : [2.1, 1.15];
+    if (i % 10 === 0) {
+      lines.push(`${1.1 * z} ${0.3 * Math.cos(angle)} ${0.3 * Math.sin(angle)}`);
+    } else if (x * center > 0 || radius * Math.hypot(y, z) > 0.3) {
+      lines.push(`${center + radius * x} ${radius * y} ${radius * z}`);
+    }
+  }
+  return lines.join('\n');
+}
+
+let folder: string;
+let address: string;
+let browser: Browser;
+let complaints: string[] = [];
+
+beforeAll(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'morsel-viewer-'));
+  const input = join(folder, kName);
+  const page = join(folder, 'parts.html');
+  writeFileSync(input, dumbbell(6000));
+  execFileSync(MORSEL, ['segment', input, '--parts', '2', '--html', page], { stdio: 'pipe' });
+  address = pathToFileURL(page).href;
+  browser = await chromium.launch({ executablePath: CHROMIUM, args: kArguments });
+});
+
+afterAll(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+afterEach(() => {
+  expect(complaints).toEqual([]);
+  complaints = [];
+});
+
+async function open(options: BrowserContextOptions = {}): Promise<Page> {
+  const context = await browser.newContext({
+    viewport: { width: 960, height: 640 },
+    ...options,
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(120_000);
+  page.on('console', (message) => complaints.push(message.text()));
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('dialog', (dialog) => complaints.push(`dialog: ${dialog.message()}`));
+  page.on('request', (request) => {
+    if (!/^(file|blob|data):/.test(request.url())) complaints.push(request.url());
+  });
+  await page.goto(address);
+  await drawn(page);
+  return page;
+}
+
+// Waits until what was asked for is on the screen.
+const drawn = (page: Page) =>
+  page.evaluate(
+    () =>
+      new Promise<void>((done) =>
+        requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 100))),
+      ),
+  );
+
+interface Colors {
+  width: number;
+  height: number;
+  /** Shares of the pixels. */
+  green: number;
+  yellow: number;
+  dark: number;
+  light: number;
+  /** Where each colour lies on average, pixels. */
+  greenAt: [number, number];
+  yellowAt: [number, number];
+}
+
+// The first two colours of the palette in a PNG, counted in a page of its own.
+async function colorsOf(png: Buffer): Promise<Colors> {
+  const page = await browser.newPage();
+  const colors = await page.evaluate(
+    async (data) => {
+      const image = new Image();
+      image.src = data;
+      await image.decode();
+      const { width, height } = image;
+      const canvas = new OffscreenCanvas(width, height);
+      const context = canvas.getContext('2d')!;
+      context.drawImage(image, 0, 0);
+      const { data: rgba } = context.getImageData(0, 0, width, height);
+      const sums = { green: [0, 0, 0], yellow: [0, 0, 0], dark: [0, 0, 0], light: [0, 0, 0] };
+      for (let i = 0; i < rgba.length; i += 4) {
+        const [r, g, b] = rgba.subarray(i, i + 3);
+        const name =
+          g > 60 && r < 0.45 * g && b > 0.5 * g
+            ? 'green'
+            : g > 60 && r > 0.85 * g && b < 0.6 * g
+              ? 'yellow'
+              : r + g + b < 180
+                ? 'dark'
+                : r + g + b > 700
+                  ? 'light'
+                  : null;
+        if (name === null) continue;
+        sums[name][0] += 1;
+        sums[name][1] += (i / 4) % width;
+        sums[name][2] += Math.floor(i / 4 / width);
+      }
+      const share = ([count]: number[]) => count / (width * height);
+      const place = ([count, x, y]: number[]): [number, number] => [x / count, y / count];
+      return {
+        width,
+        height,
+        green: share(sums.green),
+        yellow: share(sums.yellow),
+        dark: share(sums.dark),
+        light: share(sums.light),
+        greenAt: place(sums.green),
+        yellowAt: place(sums.yellow),
+      };
+    },
+    `data:image/png;base64,${png.toString('base64')}`,
+  );
+  await page.close();
+  return colors;
+}
+
+const stageOf = (page: Page) => page.locator('.stage');
+const canvasOf = (page: Page) => page.getByRole('application');
+const cardOf = (page: Page) => page.getByRole('region', { name: 'Selected part' });
+const sliderOf = (page: Page) => page.getByRole('slider', { name: 'How many parts' });
+const partsShown = (page: Page) => page.locator('output').textContent();
+
+const pictureOf = async (page: Page) => colorsOf(await stageOf(page).screenshot());
+
+describe('the page', () => {
+  test('shows both parts in their colours', async () => {
+    const page = await open();
+    expect(await page.title()).toBe(`${kName} – morsel`);
+    expect(await page.getByRole('heading', { level: 1 }).textContent()).toBe(kName);
+    expect(await partsShown(page)).toBe('2');
+    const colors = await pictureOf(page);
+    expect(colors.green).toBeGreaterThan(0.03);
+    expect(colors.yellow).toBeGreaterThan(0.03);
+    expect(colors.light).toBeGreaterThan(0.4);
+    expect(Math.abs(colors.greenAt[0] - colors.yellowAt[0])).toBeGreaterThan(200);
+    await page.context().close();
+  });
+
+  test('lets no script in', async () => {
+    const page = await open();
+    const ran = await page.evaluate(() => {
+      try {
+        const script = document.createElement('script');
+        script.text = 'window.hacked = true';
+        document.body.append(script);
+        document.body.setAttribute('onclick', 'window.hacked = true');
+        document.body.click();
+      } catch {
+        // What the policy forbids may throw.
+      }
+      return 'hacked' in window;
+    });
+    expect(ran).toBe(false);
+    // The browser says so on the console.
+    expect(complaints.length).toBeGreaterThan(0);
+    expect(complaints.every((text) => /Content Security Policy|Trusted/i.test(text))).toBe(true);
+    complaints = [];
+    await page.context().close();
+  });
+});
+
+describe('with the pointer', () => {
+  test('a click on a part shows its measures, another on it closes them', async () => {
+    const page = await open();
+    const { greenAt, yellowAt } = await pictureOf(page);
+    await page.mouse.move(...yellowAt);
+    await expect.poll(() => page.locator('.tip').textContent()).toMatch(/^Part 1: \d+% of the/);
+    await page.mouse.click(...yellowAt);
+    const card = cardOf(page);
+    await expect.poll(() => card.getByRole('heading').textContent()).toBe('Part 1');
+    expect(await card.textContent()).toMatch(/Volume\d+% of the shape.*Thickness\d.*Touches0/);
+    await card.getByRole('button', { name: 'Part 0' }).click();
+    expect(await card.getByRole('heading').textContent()).toBe('Part 0');
+    await page.mouse.click(...greenAt);
+    await expect.poll(() => card.isVisible()).toBe(false);
+    await page.context().close();
+  });
+
+  test('dragging turns the shape and selects nothing', async () => {
+    const page = await open();
+    const before = await pictureOf(page);
+    await page.mouse.move(...before.greenAt);
+    await page.mouse.down();
+    await page.mouse.move(before.greenAt[0] + 250, before.greenAt[1] + 20, { steps: 4 });
+    await page.mouse.up();
+    await drawn(page);
+    const after = await pictureOf(page);
+    expect(Math.abs(after.greenAt[0] - before.greenAt[0])).toBeGreaterThan(20);
+    expect(await cardOf(page).isVisible()).toBe(false);
+    await page.getByRole('button', { name: 'First view' }).click();
+    await drawn(page);
+    expect((await pictureOf(page)).greenAt[0]).toBeCloseTo(before.greenAt[0], 0);
+    await page.context().close();
+  });
+
+  test('parts hide, stand alone and come back', async () => {
+    const page = await open();
+    await page.getByRole('checkbox', { name: 'Show part 0' }).uncheck();
+    await drawn(page);
+    expect((await pictureOf(page)).green).toBeLessThan(0.001);
+    await page.getByRole('button', { name: 'Show all' }).click();
+    await page.getByRole('button', { name: 'Part 0', exact: true }).click();
+    await cardOf(page).getByRole('button', { name: 'Only this' }).click();
+    await drawn(page);
+    const alone = await pictureOf(page);
+    expect(alone.green).toBeGreaterThan(0.02);
+    expect(alone.yellow).toBeLessThan(0.001);
+    await page.context().close();
+  });
+
+  test('parts are pulled apart', async () => {
+    const page = await open();
+    const before = await pictureOf(page);
+    await page.getByLabel('Pull apart').fill('100');
+    await drawn(page);
+    const after = await pictureOf(page);
+    const gap = (c: Colors) => Math.abs(c.greenAt[0] - c.yellowAt[0]);
+    // Farther apart, measured by their size, as the camera steps back.
+    expect(gap(after) / Math.sqrt(after.green)).toBeGreaterThan(
+      1.3 * (gap(before) / Math.sqrt(before.green)),
+    );
+    await page.context().close();
+  });
+});
+
+describe('the slider', () => {
+  test('walks from one part to all and back', async () => {
+    const page = await open();
+    const slider = sliderOf(page);
+    await slider.focus();
+    await page.keyboard.press('Home');
+    expect(await partsShown(page)).toBe('1');
+    expect(await slider.getAttribute('aria-valuetext')).toBe('1 part');
+    await drawn(page);
+    expect((await pictureOf(page)).yellow).toBeLessThan(0.001);
+    const counts = [1];
+    for (let i = 0; i < 3; ++i) {
+      await page.keyboard.press('ArrowRight');
+      counts.push(Number(await partsShown(page)));
+    }
+    expect(counts).toEqual([...counts].sort((a, b) => a - b));
+    expect(counts[1]).toBe(2);
+    await page.keyboard.press('End');
+    const all = Number(await partsShown(page));
+    expect(all).toBeGreaterThanOrEqual(counts[3]);
+    expect(await page.locator('tbody tr').count()).toBe(Math.min(all, 100));
+    await page.getByRole('button', { name: 'Back to 2 parts' }).click();
+    expect(await partsShown(page)).toBe('2');
+    await page.context().close();
+  });
+});
+
+describe('with the keyboard alone', () => {
+  test('turns, zooms, selects, hides and cuts', async () => {
+    const page = await open();
+    const before = await pictureOf(page);
+    await page.keyboard.press('Tab');
+    expect(await canvasOf(page).evaluate((canvas) => canvas === document.activeElement)).toBe(true);
+    for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowRight');
+    await drawn(page);
+    const turned = await pictureOf(page);
+    expect(Math.abs(turned.greenAt[0] - before.greenAt[0])).toBeGreaterThan(10);
+    await page.keyboard.press('0');
+    await page.keyboard.press('+');
+    await page.keyboard.press('+');
+    await drawn(page);
+    expect((await pictureOf(page)).green).toBeGreaterThan(1.2 * before.green);
+    await page.keyboard.press('n');
+    await page.keyboard.press('n');
+    expect(await cardOf(page).getByRole('heading').textContent()).toBe('Part 1');
+    expect(await page.locator('[aria-live]').textContent()).toMatch(/^Part 1: \d+% of the volume/);
+    await page.keyboard.press('h');
+    expect(await page.getByRole('checkbox', { name: 'Show part 1' }).isChecked()).toBe(false);
+    await page.keyboard.press('a');
+    await page.keyboard.press('Escape');
+    expect(await cardOf(page).isVisible()).toBe(false);
+    await page.keyboard.press('[');
+    expect(await partsShown(page)).toBe('1');
+    await page.context().close();
+  });
+});
+
+describe('what stands for the parts', () => {
+  test('balls, ellipsoids and lines are drawn in the colours of the parts', async () => {
+    const page = await open();
+    for (const form of ['Balls', 'Ellipsoids']) {
+      await page.getByRole('radio', { name: form }).check();
+      await drawn(page);
+      const colors = await pictureOf(page);
+      expect(colors.green, form).toBeGreaterThan(0.02);
+      expect(colors.yellow, form).toBeGreaterThan(0.02);
+      await page.mouse.click(...colors.yellowAt);
+      expect(await cardOf(page).getByRole('heading').textContent()).toBe('Part 1');
+      await page.keyboard.press('Escape');
+    }
+    await page.getByRole('radio', { name: 'Surface' }).check();
+    await page.getByRole('checkbox', { name: 'Lines between parts' }).check();
+    await drawn(page);
+    const lines = await pictureOf(page);
+    expect(lines.green).toBeGreaterThan(0.0002);
+    expect(lines.green).toBeLessThan(0.05);
+    await page.context().close();
+  });
+});
+
+describe('pictures and looks', () => {
+  test('the saved picture shows what the page shows', async () => {
+    const page = await open();
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('button', { name: 'Save picture' }).click(),
+    ]);
+    expect(download.suggestedFilename()).toMatch(/^[\w.-]+-2-parts\.png$/);
+    const saved = await colorsOf(readFileSync((await download.path())!));
+    const shown = await pictureOf(page);
+    expect([saved.width, saved.height]).toEqual([shown.width, shown.height]);
+    expect(saved.green).toBeCloseTo(shown.green, 2);
+    expect(saved.yellow).toBeCloseTo(shown.yellow, 2);
+    await page.context().close();
+  });
+
+  test('light and dark follow the system and the button', async () => {
+    const page = await open({ colorScheme: 'dark' });
+    expect((await pictureOf(page)).dark).toBeGreaterThan(0.4);
+    await page.getByRole('button', { name: 'Light' }).click();
+    await drawn(page);
+    expect((await pictureOf(page)).light).toBeGreaterThan(0.4);
+    await page.context().close();
+  });
+
+  test('fits a phone', async () => {
+    const page = await open({ viewport: { width: 390, height: 844 }, hasTouch: true });
+    const overflow = await page.evaluate(
+      () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+    );
+    expect(overflow).toBe(0);
+    const colors = await pictureOf(page);
+    expect(colors.width).toBe(390);
+    expect(colors.green).toBeGreaterThan(0.02);
+    await page.touchscreen.tap(...colors.yellowAt);
+    await expect.poll(() => cardOf(page).isVisible()).toBe(true);
+    await page.context().close();
+  });
+
+  test('says so when there is no 3D', async () => {
+    const plain = await chromium.launch({
+      executablePath: CHROMIUM,
+      args: ['--no-sandbox', '--no-first-run', '--disable-gpu', '--disable-3d-apis'],
+    });
+    const page = await plain.newPage();
+    await page.goto(address);
+    expect(await page.getByRole('alert').textContent()).toMatch(/no 3D/);
+    expect(await page.locator('tbody tr').count()).toBe(2);
+    await plain.close();
+  });
+});
+
+describe('accessibility', () => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core'), 'utf8');
+  for (const colorScheme of ['light', 'dark'] as const) {
+    for (const width of [1280, 390]) {
+      test(`axe finds nothing, ${colorScheme}, ${width} pixels`, async () => {
+        const page = await open({ colorScheme, viewport: { width, height: 844 }, bypassCSP: true });
+        await page.getByRole('button', { name: 'Part 0', exact: true }).click();
+        await page.getByText('What is this?').click();
+        await sliderOf(page).fill('0');
+        await page.evaluate(axe);
+        const violations = await page.evaluate(async () => {
+          const { axe } = window as unknown as { axe: typeof import('axe-core') };
+          const found = await axe.run();
+          return found.violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`);
+        });
+        expect(violations).toEqual([]);
+        await page.context().close();
+      });
+    }
+  }
+});
