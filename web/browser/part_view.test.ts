@@ -43,6 +43,7 @@ function dumbbell(count: number): string {
 let folder: string;
 let address: string;
 let browser: Browser;
+let counter: Page; // counts colours
 let complaints: string[] = [];
 
 beforeAll(async () => {
@@ -53,6 +54,7 @@ beforeAll(async () => {
   execFileSync(MORSEL, ['segment', input, '--parts', '2', '--html', page], { stdio: 'pipe' });
   address = pathToFileURL(page).href;
   browser = await chromium.launch({ executablePath: CHROMIUM, args: kArguments });
+  counter = await browser.newPage();
 });
 
 afterAll(async () => {
@@ -105,10 +107,9 @@ interface Colors {
   yellowAt: [number, number];
 }
 
-// The first two colours of the palette in a PNG, counted in a page of its own.
+// The first two colours of the palette in a PNG.
 async function colorsOf(png: Buffer): Promise<Colors> {
-  const page = await browser.newPage();
-  const colors = await page.evaluate(
+  return counter.evaluate(
     async (data) => {
       const image = new Image();
       image.src = data;
@@ -151,8 +152,6 @@ async function colorsOf(png: Buffer): Promise<Colors> {
     },
     `data:image/png;base64,${png.toString('base64')}`,
   );
-  await page.close();
-  return colors;
 }
 
 const stageOf = (page: Page) => page.locator('.stage');
@@ -398,22 +397,21 @@ describe('pictures and looks', () => {
 
 describe('accessibility', () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core'), 'utf8');
-  for (const colorScheme of ['light', 'dark'] as const) {
-    for (const width of [1280, 390]) {
-      test(`axe finds nothing, ${colorScheme}, ${width} pixels`, async () => {
-        const page = await open({ colorScheme, viewport: { width, height: 844 }, bypassCSP: true });
-        await page.getByRole('button', { name: 'Part 0', exact: true }).click();
-        await page.getByText('What is this?').click();
-        await sliderOf(page).fill('0');
-        await page.evaluate(axe);
-        const violations = await page.evaluate(async () => {
-          const { axe } = window as unknown as { axe: typeof import('axe-core') };
-          const found = await axe.run();
-          return found.violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`);
-        });
-        expect(violations).toEqual([]);
-        await page.context().close();
-      });
-    }
-  }
+  test.each([
+    ['light', 1280],
+    ['dark', 390],
+  ] as const)('axe finds nothing: %s, %i pixels', async (colorScheme, width) => {
+    const page = await open({ colorScheme, viewport: { width, height: 844 }, bypassCSP: true });
+    await page.getByRole('button', { name: 'Part 0', exact: true }).click();
+    await page.getByText('What is this?').click();
+    await sliderOf(page).fill('0');
+    await page.evaluate(axe);
+    const violations = await page.evaluate(async () => {
+      const { axe } = window as unknown as { axe: typeof import('axe-core') };
+      const found = await axe.run();
+      return found.violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`);
+    });
+    expect(violations).toEqual([]);
+    await page.context().close();
+  });
 });
