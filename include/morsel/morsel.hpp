@@ -9,9 +9,12 @@
 #include <morsel/html.hpp>
 #include <morsel/interior.hpp>
 #include <morsel/io.hpp>
+#include <morsel/match.hpp>
 #include <morsel/picture.hpp>
 #include <morsel/progress.hpp>
+#include <morsel/search.hpp>
 #include <morsel/segment.hpp>
+#include <morsel/signature.hpp>
 #include <morsel/vec3.hpp>
 #include <span>
 #include <string>
@@ -59,10 +62,12 @@ struct Segmentation {
   DelaunayComplex complex;
   Interior interior;
   Basins basins;
+  Signature signature;  ///< encode() it, match() it with others; of size 0 for a flat cloud
   std::vector<StageCost> costs;
 };
 
-/// denoise → triangulate → find_interior → find_basins → build_merge_tree → cut.
+/// denoise → triangulate → find_interior → find_basins → build_merge_tree → cut →
+/// make_signature.
 /// Geometric outcomes are in `verdict`; throws Error(kUsage), Error(kInput) for a coordinate that
 /// is not finite, Error(kCancelled). Cost: O(n log n), about 1 kB a point. Safe to call from
 /// several threads.

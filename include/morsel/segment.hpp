@@ -112,6 +112,8 @@ struct CutOptions {
 struct PartNeighbor {
   int part = 0;
   double neck_radius = 0.0;  ///< of the largest ball through which the two are joined, in units
+
+  friend bool operator==(const PartNeighbor&, const PartNeighbor&) = default;
 };
 
 /// One part of one cut.

@@ -136,11 +136,14 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
       return build_merge_tree(s.complex, vertex_cells, lambda, s.interior, s.basins,
                               options.interior.method, options.threads);
     });
-    s.parts = stages.run("cut", 0.99, [&] { return cut(s.tree, options.cut); });
+    s.parts = stages.run("cut", 0.97, [&] { return cut(s.tree, options.cut); });
     s.labels = s.parts.part_of_point;
   } else {
     s.labels.assign(points.size(), -1);
   }
+  s.signature = stages.run("signature", 0.99, [&] {
+    return make_signature(s.complex, s.interior, s.basins, s.parts, options.threads);
+  });
   s.message = describe(s);
   if (progress != nullptr) progress->report("done", 1.0);
   return s;

@@ -1,0 +1,51 @@
+// morsel: how alike two shapes are, and how to lay one onto the other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <morsel/interior.hpp>
+#include <morsel/signature.hpp>
+#include <morsel/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace morsel {
+
+struct MatchOptions {
+  Method method = Method::kDefault;  ///< the paper's score over weighted points, or the default one
+  bool mirror = true;                ///< a shape and its mirror image count as the same
+
+  /// Throws Error(kUsage) that names field, value and range.
+  void check() const;
+};
+
+/// Two parts that lie on each other in the alignment.
+struct MatchedPart {
+  int target = 0;             ///< part of the target
+  int source = 0;             ///< part of the source
+  double contribution = 0.0;  ///< share of the aligned volumes' overlap that the pair makes up, 0 … 1
+};
+
+/// How the source lies on the target.
+struct Match {
+  double score = 0.0;  ///< 0 … 1; 1 for equal signatures
+  /// Row-major 4×4, in the input units of both shapes: rotation (and reflection when `mirrored`),
+  /// scale and translation.
+  std::array<double, 16> target_from_source{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  bool mirrored = false;
+  std::vector<MatchedPart> matched;   ///< by decreasing contribution; each part at most once
+  std::vector<int> unmatched_target;  ///< parts without a counterpart, ascending
+  std::vector<int> unmatched_source;
+};
+
+/// Scores and aligns two shapes. Thread-safe, deterministic.
+/// Method::kPaper: heaviest parts onto each other, then the best of the alignments of one other
+/// part with another. Source: Dey, Giesen, Goswami 2004, section 4. Differs: docs/signature.md.
+[[nodiscard]] Match match(const Signature& target, const Signature& source,
+                          const MatchOptions& options = {});
+
+/// The score alone, the same as match().score. Symmetric: exchanging the two gives the same bits.
+[[nodiscard]] double match_score(const Signature& a, const Signature& b,
+                                 const MatchOptions& options = {});
+
+}  // namespace morsel

@@ -1,0 +1,100 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <morsel/match.hpp>
+#include <vector>
+
+#include "match/align.hpp"
+#include "match/score.hpp"
+#include "signature/tables.hpp"
+
+namespace morsel {
+namespace {
+
+// x ↦ scale · turn · (x - source centroid) + target centroid.
+std::array<double, 16> transform(const Signature& target, const Signature& source,
+                                 const Eigen::Matrix3d& turn) {
+  const double scale = source.size > 0.0 ? target.size / source.size : 1.0;
+  const Eigen::Vector3d to(target.centroid.x, target.centroid.y, target.centroid.z);
+  const Eigen::Vector3d from(source.centroid.x, source.centroid.y, source.centroid.z);
+  const Eigen::Vector3d shift = to - scale * (turn * from);
+  std::array<double, 16> result{};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) result[4 * i + k] = scale * turn(i, k);
+    result[4 * i + 3] = shift[i];
+  }
+  result[15] = 1.0;
+  return result;
+}
+
+struct Pair {
+  double overlap = 0.0;
+  int target = 0;
+  int source = 0;
+};
+
+// Pairs of parts in order of the overlap that they make up; each part once.
+void pair_parts(const std::vector<Blob>& target, const std::vector<Blob>& source, Match& result) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    for (std::size_t k = 0; k < source.size(); ++k) {
+      pairs.push_back({overlap({target[i]}, {source[k]}), static_cast<int>(i),
+                       static_cast<int>(k)});
+    }
+  }
+  std::ranges::stable_sort(pairs, std::ranges::greater{}, &Pair::overlap);
+  double total = 0.0;
+  for (const Pair& pair : pairs) total += pair.overlap;
+  std::vector<bool> target_taken(target.size(), false);
+  std::vector<bool> source_taken(source.size(), false);
+  for (const Pair& pair : pairs) {
+    if (target_taken[pair.target] || source_taken[pair.source] || !(pair.overlap > 0.0)) continue;
+    target_taken[pair.target] = source_taken[pair.source] = true;
+    result.matched.push_back({pair.target, pair.source, pair.overlap / total});
+  }
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    if (!target_taken[i]) result.unmatched_target.push_back(static_cast<int>(i));
+  }
+  for (std::size_t k = 0; k < source.size(); ++k) {
+    if (!source_taken[k]) result.unmatched_source.push_back(static_cast<int>(k));
+  }
+}
+
+}  // namespace
+
+void MatchOptions::check() const {}
+
+double table_distance(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  double sum = 0.0;
+  for (const TableBlock& block : kTableBlocks) {
+    std::uint64_t difference = 0;
+    for (std::size_t i = block.offset; i < block.offset + block.size; ++i) {
+      difference += static_cast<std::uint64_t>(std::abs((i < a.size() ? a[i] : 0) -
+                                                        (i < b.size() ? b[i] : 0)));
+    }
+    sum += block.weight * static_cast<double>(difference);
+  }
+  return sum;
+}
+
+double score_of_distance(double distance) { return std::exp(-distance); }
+
+double match_score(const Signature& a, const Signature& b, const MatchOptions& options) {
+  options.check();
+  return score_of_distance(table_distance(a.tables, b.tables));
+}
+
+Match match(const Signature& target, const Signature& source, const MatchOptions& options) {
+  Match result;
+  result.score = match_score(target, source, options);
+  const std::vector<Blob> to = blobs_of(target);
+  const std::vector<Blob> from = blobs_of(source);
+  const Alignment alignment = align(to, from, options.mirror);
+  result.target_from_source = transform(target, source, alignment.target_from_source);
+  result.mirrored = alignment.target_from_source.determinant() < 0.0;
+  pair_parts(to, turned(from, alignment.target_from_source), result);
+  return result;
+}
+
+}  // namespace morsel
