@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <morsel/delaunay.hpp>
-#include <morsel/interior.hpp>
 #include <morsel/segment.hpp>
 #include <morsel/vec3.hpp>
 #include <span>
@@ -47,8 +46,8 @@ struct Signature {
 /// rounding alone and turns the parts along. A cloud without an inside has no parts and the
 /// tables of its points only; one that is flat has an empty signature (size 0).
 /// Cost: O(c log c), a tenth of the triangulation. Thread-safe.
-[[nodiscard]] Signature make_signature(const DelaunayComplex& complex, const Interior& interior,
-                                       const Basins& basins, const Parts& parts, int threads = 0);
+[[nodiscard]] Signature make_signature(const DelaunayComplex& complex, const Basins& basins,
+                                       const Parts& parts, int threads = 0);
 
 /// At most kMostSignatureBytes: version, little-endian numbers, checksum; docs/signature.md has the
 /// layout. The same bytes on every machine.

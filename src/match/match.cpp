@@ -73,7 +73,7 @@ double table_distance(std::span<const std::uint8_t> a, std::span<const std::uint
       difference += static_cast<std::uint64_t>(std::abs((i < a.size() ? a[i] : 0) -
                                                         (i < b.size() ? b[i] : 0)));
     }
-    sum += block.weight * static_cast<double>(difference);
+    sum += static_cast<double>(difference) / block.unit / 5.0;
   }
   return sum;
 }

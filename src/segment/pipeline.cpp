@@ -142,7 +142,7 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
     s.labels.assign(points.size(), -1);
   }
   s.signature = stages.run("signature", 0.99, [&] {
-    return make_signature(s.complex, s.interior, s.basins, s.parts, options.threads);
+    return make_signature(s.complex, s.basins, s.parts, options.threads);
   });
   s.message = describe(s);
   if (progress != nullptr) progress->report("done", 1.0);

@@ -4,20 +4,11 @@
 #include <cmath>
 #include <morsel/signature.hpp>
 
+#include "signature/solid.hpp"
 #include "signature/tables.hpp"
 
 namespace morsel {
 namespace {
-
-Frame frame_of_points(const std::vector<Vec3>& points) {
-  Frame frame;
-  const double share = 1.0 / static_cast<double>(points.size());
-  for (const Vec3& p : points) frame.centroid = frame.centroid + share * p;
-  double spread = 0.0;
-  for (const Vec3& p : points) spread += share * squared_distance(p, frame.centroid);
-  frame.size = std::sqrt(spread);
-  return frame;
-}
 
 // From the exact second moments of the parts, which add up.
 Frame frame_of_parts(const Parts& parts) {
@@ -60,8 +51,8 @@ std::vector<SignaturePart> heaviest_parts(const Parts& parts, const Frame& frame
 
 }  // namespace
 
-Signature make_signature(const DelaunayComplex& complex, const Interior& interior,
-                         const Basins& basins, const Parts& parts, int /*threads*/) {
+Signature make_signature(const DelaunayComplex& complex, const Basins& basins,
+                         const Parts& parts, int threads) {
   Signature signature;
   if (complex.dimension < 3) return signature;
   const Frame frame =
@@ -69,7 +60,7 @@ Signature make_signature(const DelaunayComplex& complex, const Interior& interio
   signature.centroid = frame.centroid;
   signature.size = frame.size;
   signature.parts = heaviest_parts(parts, frame);
-  signature.tables = make_tables(complex, interior, basins, frame);
+  signature.tables = make_tables(complex, basins, threads);
   return decode(encode(signature));
 }
 

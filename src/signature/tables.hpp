@@ -1,36 +1,40 @@
-// The tables of a signature: joint statistics of the inside that need no alignment.
+// The tables of a signature: joint statistics that need no alignment. docs/signature.md has the
+// formulas and what each table is worth.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <morsel/delaunay.hpp>
-#include <morsel/interior.hpp>
 #include <morsel/segment.hpp>
-#include <span>
 #include <vector>
 
 namespace morsel {
 
-/// Centroid and RMS radius of what the tables are about.
-struct Frame {
-  Vec3 centroid;
-  double size = 0.0;
-};
+/// What a table is read from: those of the inside count as far as there is one.
+enum class TableSource : std::uint8_t { kSurface, kInside };
 
-/// A run of values in the tables that are compared with one weight.
+/// A run of values in the tables that are compared as one.
 struct TableBlock {
+  const char* name = "";
   std::size_t offset = 0;
   std::size_t size = 0;
-  double weight = 0.0;  ///< of one byte of difference in the distance of two signatures
+  TableSource source = TableSource::kSurface;
+  double unit = 1.0;  ///< mean L1 distance of two shapes of the development half, in bytes
 };
 
-inline constexpr std::array<TableBlock, 1> kTableBlocks{{{0, 168, 1.0 / 1500.0}}};
+/// The first value is the solidity; then the blocks.
+inline constexpr std::array<TableBlock, 5> kTableBlocks{{
+    {"shells", 1, 105, TableSource::kSurface, 1.0},
+    {"facing", 106, 180, TableSource::kSurface, 1.0},
+    {"pairs", 286, 144, TableSource::kSurface, 1.0},
+    {"thickness", 430, 120, TableSource::kInside, 1.0},
+    {"centricity", 550, 72, TableSource::kInside, 1.0},
+}};
 inline constexpr std::size_t kTableSize = kTableBlocks.back().offset + kTableBlocks.back().size;
 
-/// (kTableSize) values. Cost: O(c).
+/// (kTableSize) values. The cells' neighbours are not read. Cost: O(c).
 [[nodiscard]] std::vector<std::uint8_t> make_tables(const DelaunayComplex& complex,
-                                                    const Interior& interior, const Basins& basins,
-                                                    const Frame& frame);
+                                                    const Basins& basins, int threads);
 
 }  // namespace morsel
