@@ -15,12 +15,14 @@ class Progress {
 
   Progress() = default;
   explicit Progress(Callback callback) : callback_(std::move(callback)) {}
+  /// For one piece of the work that `whole` is about: reports nothing, is cancelled with it.
+  explicit Progress(const Progress* whole) : whole_(whole) {}
 
   /// Asks the work to stop: it then throws Error(kCancelled). Safe from any thread and from a
   /// signal handler.
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
   [[nodiscard]] bool cancelled() const noexcept {
-    return cancelled_.load(std::memory_order_relaxed);
+    return cancelled_.load(std::memory_order_relaxed) || (whole_ != nullptr && whole_->cancelled());
   }
 
   /// Calls the callback, then throws Error(kCancelled) if cancellation was asked for.
@@ -30,6 +32,7 @@ class Progress {
 
  private:
   Callback callback_;
+  const Progress* whole_ = nullptr;
   std::atomic<bool> cancelled_{false};
 };
 

@@ -70,6 +70,15 @@ TEST(ProgressTest, CancelStopsAtTheNextReport) {
   EXPECT_THROW(progress.report("read", 0.2), Error);
 }
 
+TEST(ProgressTest, APieceIsCancelledWithTheWhole) {
+  Progress whole;
+  const Progress piece(&whole);
+  piece.report("read", 0.5);
+  whole.cancel();
+  EXPECT_TRUE(piece.cancelled());
+  EXPECT_THROW(piece.check(), Error);
+}
+
 // The first outputs for a fixed seed, so that samples are the same on every machine for ever.
 TEST(RandomTest, IsPortable) {
   Random random(1);

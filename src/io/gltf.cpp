@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/base64.hpp"
 #include "io/bytes.hpp"
 #include "io/geometry.hpp"
 
@@ -77,32 +78,6 @@ Json parse_json(const Source& source, const Container& container) {
 }
 
 // ---- buffers ----
-
-int base64_value(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  if (c == '+') return 62;
-  return c == '/' ? 63 : -1;
-}
-
-std::optional<std::string> decode_base64(std::string_view text) {
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  while (text.ends_with('=')) text.remove_suffix(1);
-  for (const char c : text) {
-    const int value = base64_value(c);
-    if (value < 0) return std::nullopt;
-    bits = (bits << 6) | static_cast<std::uint32_t>(value);
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes.push_back(static_cast<char>((bits >> count) & 0xff));
-  }
-  return bytes;
-}
 
 std::string percent_decoded(std::string_view uri) {
   std::string text;
