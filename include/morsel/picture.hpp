@@ -23,6 +23,9 @@ struct PictureOptions {
   std::size_t width = 800;  ///< pixels of the whole picture, 64 … 8192
   std::size_t views = 4;    ///< views of the object, 1 … 4: three quarters, other side, top, back
   std::string title = {};   ///< drawn above the views when not empty; PNG shows ASCII only
+  /// The object whose upright pose is taken, so that several can be shown from one side; empty: the
+  /// one that is drawn.
+  std::span<const Vec3> pose_of = {};
 
   /// Throws Error(kUsage) that names field, value and range.
   void check() const;
@@ -54,5 +57,12 @@ void write_png(const std::filesystem::path& path, const Image& image);
 /// and captions differ, or an image's bytes do not match its size.
 [[nodiscard]] Image make_sheet(std::span<const Image> cells, std::span<const std::string> captions,
                                std::size_t columns);
+
+/// Draws a square table of values as coloured cells, 0 dark and 1 bright; `names` stand beside the
+/// rows where these are high enough. `values` holds names.size()² values row by row; what lies
+/// outside [0, 1] is drawn as the nearer of the two.
+/// Cost: O(pixels), at most about 2000 a side. Throws Error(kUsage) when the numbers do not fit.
+[[nodiscard]] Image draw_heat_map(std::span<const double> values,
+                                  std::span<const std::string> names);
 
 }  // namespace morsel

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "base/test_shapes.hpp"
 #include "picture/contour.hpp"
 #include "picture/raster.hpp"
 #include "picture/surfels.hpp"
@@ -545,6 +546,22 @@ TEST(ContourTest, EnclosesTheInside) {
   EXPECT_EQ(picture::trace_contours({2, 2, {1, -1, -1, 1}}).size(), 2U);
   EXPECT_EQ(picture::trace_contours({1, 1, {1}}).size(), 1U);
   EXPECT_TRUE(picture::trace_contours({2, 1, {-1, -1}}).empty());
+}
+
+// Two poses of one object look different on their own, the same from one side when one lies on the
+// other.
+TEST(RenderParts, TakesThePoseOfAnother) {
+  Labelled lying;
+  for (const Vec3& p : shapes::box(4000, {3.0, 1.0, 1.0})) lying.add(p, 0);
+  std::vector<Vec3> standing;
+  for (const Vec3& p : lying.points) standing.push_back({p.y, p.z, p.x});
+  const PictureOptions plain{.width = 128, .views = 1};
+  PictureOptions posed = plain;
+  posed.pose_of = standing;
+  EXPECT_NE(render_parts(lying.points, lying.labels, posed).rgb,
+            render_parts(lying.points, lying.labels, plain).rgb);
+  EXPECT_GT(render_parts(standing, lying.labels, posed).height,
+            render_parts(lying.points, lying.labels, posed).height);
 }
 
 }  // namespace

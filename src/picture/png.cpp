@@ -1,3 +1,5 @@
+#include "picture/png.hpp"
+
 #include <png.h>
 
 #include <cstdint>
@@ -5,7 +7,6 @@
 #include <morsel/error.hpp>
 #include <morsel/picture.hpp>
 #include <string>
-#include <vector>
 
 #include "base/atomic_file.hpp"
 
@@ -14,7 +15,17 @@ namespace {
 
 constexpr std::size_t kLargestSide = 1'000'000;  // libpng's own limit
 
-std::vector<char> encode(const std::filesystem::path& path, const Image& image) {
+}  // namespace
+
+std::string picture::encode_png(const Image& image, const std::string& name) {
+  if (image.width == 0 || image.height == 0 || image.width > kLargestSide ||
+      image.height > kLargestSide || image.rgb.size() != 3 * image.width * image.height) {
+    throw Error(ErrorCode::kUsage,
+                name + ": image of " + std::to_string(image.width) + " x " +
+                    std::to_string(image.height) + " pixels with " +
+                    std::to_string(image.rgb.size()) +
+                    " bytes; it needs 1 to 1000000 pixels a side and 3 bytes a pixel");
+  }
   png_image header;
   std::memset(&header, 0, sizeof header);
   header.version = PNG_IMAGE_VERSION;
@@ -22,31 +33,21 @@ std::vector<char> encode(const std::filesystem::path& path, const Image& image) 
   header.height = static_cast<png_uint_32>(image.height);
   header.format = PNG_FORMAT_RGB;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
-  std::vector<char> bytes(size);
+  std::string bytes(size, '\0');
   if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) ==
       0) {
     const std::string reason = header.message;
     png_image_free(&header);
-    throw Error(ErrorCode::kOutput, path.string() + ": cannot encode as PNG: " + reason);
+    throw Error(ErrorCode::kOutput, name + ": cannot encode as PNG: " + reason);
   }
   bytes.resize(size);
   return bytes;
 }
 
-}  // namespace
-
 void write_png(const std::filesystem::path& path, const Image& image) {
-  if (image.width == 0 || image.height == 0 || image.width > kLargestSide ||
-      image.height > kLargestSide || image.rgb.size() != 3 * image.width * image.height) {
-    throw Error(ErrorCode::kUsage,
-                path.string() + ": image of " + std::to_string(image.width) + " x " +
-                    std::to_string(image.height) + " pixels with " +
-                    std::to_string(image.rgb.size()) +
-                    " bytes; it needs 1 to 1000000 pixels a side and 3 bytes a pixel");
-  }
-  const std::vector<char> bytes = encode(path, image);
+  const std::string bytes = picture::encode_png(image, path.string());
   AtomicFile file(path);
-  file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.stream() << bytes;
   file.commit();
 }
 

@@ -23,6 +23,12 @@ std::vector<Eigen::Vector3f> positions(const std::vector<Surfel>& surfels) {
   return result;
 }
 
+std::vector<Eigen::Matrix3f> views_of(const Scene& scene, const PictureOptions& options) {
+  if (options.pose_of.empty()) return choose_views(positions(scene.surfels), options.views);
+  const std::vector<int> labels(options.pose_of.size(), 0);
+  return choose_views(normalize(options.pose_of, labels).points, options.views);
+}
+
 }  // namespace
 
 Scene make_scene(std::span<const Vec3> points, std::span<const int> labels,
@@ -45,8 +51,7 @@ Scene make_scene(std::span<const Vec3> points, std::span<const int> labels,
   const float columns = options.views > 1 ? 2.0F : 1.0F;
   const float cell = std::max(kFinestCell, kMergePixels * 2.0F * columns / width);
   scene.surfels = make_surfels(merge_on_grid(normalize(points, labels), cell));
-  scene.layout = arrange(scene.surfels, choose_views(positions(scene.surfels), options.views),
-                         options.width, title_rows);
+  scene.layout = arrange(scene.surfels, views_of(scene, options), options.width, title_rows);
   return scene;
 }
 
