@@ -10,7 +10,7 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache pkg-config python3
   libcgal-dev libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev
-  liblzf-dev libnanoflann-dev zlib1g-dev libgtest-dev
+  liblzf-dev libnanoflann-dev zlib1g-dev libsqlite3-dev libsqlitecpp-dev libxxhash-dev libgtest-dev
 )
 # Node.js builds the viewer; one that did not come from Debian brings its npm along.
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then packages+=(nodejs npm); fi

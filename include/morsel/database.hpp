@@ -1,0 +1,183 @@
+// morsel: a database of shapes: signatures under names, and the search for look-alikes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <istream>
+#include <memory>
+#include <morsel/io.hpp>
+#include <morsel/match.hpp>
+#include <morsel/morsel.hpp>
+#include <morsel/progress.hpp>
+#include <morsel/signature.hpp>
+#include <morsel/sketch.hpp>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace morsel {
+
+/// What a person says about a shape.
+struct ShapeInfo {
+  std::string name;               ///< unique in the database, 1 … 1024 bytes of UTF-8
+  std::string class_name;         ///< what it is, e.g. "chair"; empty: not said
+  std::vector<std::string> tags;  ///< sorted, each once
+  std::string source;             ///< where the points came from, e.g. the path of a file
+
+  friend bool operator==(const ShapeInfo&, const ShapeInfo&) = default;
+};
+
+/// What the program knows of a shape. It is stored once for all names of the same content.
+struct ShapeData {
+  std::string content;       ///< content_key() of the points and options
+  std::string options;       ///< under which it was segmented, for people
+  std::uint64_t points = 0;  ///< of the input
+  Signature signature;
+  Sketch sketch;
+  std::string thumbnail;  ///< a small picture, the bytes of a PNG file
+};
+
+struct StoredShape {
+  ShapeInfo info;
+  ShapeData data;
+};
+
+/// Names the content: equal for equal coordinates in equal order, options and format of signatures,
+/// different for all practical purposes otherwise. 32 hexadecimal digits. Cost: O(n).
+[[nodiscard]] std::string content_key(std::span<const Vec3> points, const SegmentOptions& options);
+
+/// All that is stored of a segmentation. Throws Error(kInput) when there is nothing to compare: too
+/// few points, or all on one plane. Cost: O(n) and a small picture.
+[[nodiscard]] ShapeData make_shape_data(const Segmentation& segmentation,
+                                        const SegmentOptions& options, std::string content);
+
+/// Which shapes to list; what is not given does not narrow.
+struct ShapeFilter {
+  std::optional<std::string> class_name;
+  std::optional<std::string> tag;
+};
+
+/// A shape that looks like the query.
+struct LookAlike {
+  ShapeInfo info;
+  double score = 0.0;  ///< 0 … 1
+};
+
+/// Scores of all pairs. Rows are ordered by class, then name.
+struct SimilarityMatrix {
+  std::vector<ShapeInfo> shapes;  ///< (n)
+  std::vector<double> scores;     ///< (n, n), row by row; symmetric, ones on the diagonal
+};
+
+/// What a write did to a name.
+enum class Change { kAdded, kReplaced, kUnchanged };
+
+/// How a database is opened.
+enum class Access {
+  kRead,    ///< an existing one, nothing in it is changed
+  kWrite,   ///< an existing one
+  kCreate,  ///< one that is made if it is not there
+};
+
+/// Shapes in one file (SQLite, write-ahead log). Beside it `FILE-….block` may appear, a copy of the
+/// signatures laid out for searching: it is made when a search finds none of the current state, and
+/// may be deleted at any time.
+///
+/// Every change is one transaction: it is there as a whole, on disk, when the function returns, and
+/// not at all otherwise. Several processes and threads may read and write at once.
+///
+/// All functions throw Error(kInput) naming the file when it is not a database of morsel, was
+/// written by a newer version or is damaged; Error(kOutput) when it cannot be written or stays
+/// locked for a minute. An older version's database is brought up to date when opened for writing.
+class Database {
+ public:
+  [[nodiscard]] static Database open(const std::filesystem::path& file, Access access);
+  Database(Database&&) noexcept;
+  Database& operator=(Database&&) noexcept;
+  ~Database();
+
+  [[nodiscard]] const std::filesystem::path& file() const;
+  [[nodiscard]] std::size_t size() const;
+
+  /// By name. Cost: O(shapes).
+  [[nodiscard]] std::vector<ShapeInfo> list(const ShapeFilter& filter = {}) const;
+  /// Nothing when there is no shape of that name.
+  [[nodiscard]] std::optional<ShapeInfo> find(const std::string& name) const;
+  /// Throws Error(kInput) when there is no shape of that name.
+  [[nodiscard]] StoredShape get(const std::string& name) const;
+
+  /// Stores a shape, in place of the one of that name if there is one.
+  /// Throws Error(kUsage) for a name that cannot be one.
+  Change put(const ShapeInfo& info, const ShapeData& data);
+  /// As put() when data of that content is stored already; nothing otherwise.
+  std::optional<Change> put_known(const ShapeInfo& info, const std::string& content);
+  /// All or none. Throws Error(kInput) when one is missing.
+  void remove(std::span<const std::string> names);
+  /// Throws Error(kInput) when `from` is missing or `to` is taken.
+  void rename(const std::string& from, const std::string& to);
+
+  /// The `top` shapes of the highest scores, best first, equal ones by name: exactly what scoring
+  /// every shape would give. After a change the first search copies all signatures, O(shapes).
+  [[nodiscard]] std::vector<LookAlike> search(const Signature& query, std::size_t top,
+                                              const MatchOptions& options = {}) const;
+  /// Cost: O(shapes²) scores on `threads` threads (0: all cores).
+  [[nodiscard]] SimilarityMatrix matrix(const MatchOptions& options = {}, int threads = 0,
+                                        const Progress* progress = nullptr) const;
+
+  /// Everything as JSON lines, by name; docs/database.md has the schema. Equal databases give equal
+  /// bytes. Throws Error(kOutput) when the stream fails.
+  void export_lines(std::ostream& stream) const;
+  /// Stores what export_lines wrote, all or nothing; shapes of the same names are replaced. `name`
+  /// stands for the stream in messages. Returns how many lines there were.
+  /// Throws Error(kInput) that names the line and what is wrong with it.
+  std::size_t import_lines(std::istream& stream, const std::string& name);
+
+  /// Reads every byte: SQLite's own check, links between tables, and that each row has its checksum
+  /// and can be decoded. One sentence for each thing found wrong, at most 100.
+  [[nodiscard]] std::vector<std::string> check(const Progress* progress = nullptr) const;
+
+ private:
+  struct State;
+  explicit Database(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// A file to be stored.
+struct ShapeFile {
+  std::filesystem::path path;
+  std::string name;                       ///< under which it is stored
+  std::optional<std::string> class_name;  ///< not given: as it was
+  std::vector<std::string> tags;          ///< added to those it has
+};
+
+struct IndexOptions {
+  SegmentOptions segment;  ///< `threads`: files that are worked on at once, 0: one a core
+  SampleOptions sample;    ///< of meshes
+};
+
+/// A file that could not be stored.
+struct IndexFailure {
+  std::filesystem::path path;
+  std::string reason;
+};
+
+struct IndexReport {
+  std::size_t added = 0;
+  std::size_t replaced = 0;
+  std::size_t unchanged = 0;           ///< neither content, class, tags nor path differ
+  std::size_t without_inside = 0;      ///< stored, but compared by their points alone
+  std::vector<IndexFailure> failures;  ///< in the order of `files`
+};
+
+/// Segments files and stores them, several at once, each in a transaction of its own. A file whose
+/// content is stored already is not segmented again. A file that fails does not stop the others.
+/// Progress: the share of the files that are done. When cancelled, what is stored stays.
+/// Throws Error(kUsage), Error(kCancelled), and what Database::put throws.
+[[nodiscard]] IndexReport index_files(Database& database, std::span<const ShapeFile> files,
+                                      const IndexOptions& options = {},
+                                      const Progress* progress = nullptr);
+
+}  // namespace morsel

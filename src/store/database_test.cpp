@@ -1,0 +1,216 @@
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <morsel/database.hpp>
+#include <morsel/error.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "store/test_database.hpp"
+
+namespace morsel::store {
+namespace {
+
+using ::testing::Test;
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(DatabaseTest, WhatIsPutComesBack) {
+  const ShapeInfo info{"models/cat.off", "cat", {"scanned", "small"}, "/data/models/cat.off"};
+  const ShapeData data = dumbbell_data();
+  create().put(info, data);
+  const StoredShape shape = Database::open(file_, Access::kRead).get("models/cat.off");
+  EXPECT_EQ(shape.info, info);
+  EXPECT_EQ(shape.data.content, data.content);
+  EXPECT_EQ(shape.data.options, data.options);
+  EXPECT_EQ(shape.data.points, 1500U);
+  EXPECT_EQ(shape.data.signature, data.signature);
+  EXPECT_EQ(shape.data.thumbnail, data.thumbnail);
+  EXPECT_EQ(encode_sketch(shape.data.sketch), encode_sketch(data.sketch));
+}
+
+TEST_F(DatabaseTest, IsOneFileWhenClosed) {
+  create().put({"a", {}, {}, {}}, dumbbell_data());
+  EXPECT_EQ(names_in_folder(), std::vector<std::string>{"shapes.db"});
+  EXPECT_EQ(Database::open(file_, Access::kRead).size(), 1U);
+  EXPECT_EQ(names_in_folder(), std::vector<std::string>{"shapes.db"});
+}
+
+TEST_F(DatabaseTest, PutSaysWhatItDid) {
+  Database database = create();
+  const ShapeData one = dumbbell_data(1);
+  const ShapeData two = dumbbell_data(2);
+  EXPECT_EQ(database.put({"a", {}, {}, {}}, one), Change::kAdded);
+  EXPECT_EQ(database.put({"a", {}, {}, {}}, one), Change::kUnchanged);
+  EXPECT_EQ(database.put({"a", "cat", {}, {}}, one), Change::kReplaced);
+  EXPECT_EQ(database.put({"a", "cat", {}, {}}, two), Change::kReplaced);
+  EXPECT_EQ(database.size(), 1U);
+  EXPECT_EQ(database.get("a").data.content, two.content);
+}
+
+TEST_F(DatabaseTest, ContentIsStoredOnce) {
+  {
+    Database database = create();
+    const ShapeData data = dumbbell_data();
+    EXPECT_EQ(database.put_known({"a", {}, {}, {}}, data.content), std::nullopt);
+    database.put({"a", {}, {}, {}}, data);
+    EXPECT_EQ(database.put_known({"b", {}, {}, {}}, data.content), Change::kAdded);
+    database.remove(std::vector<std::string>{"a"});
+    EXPECT_EQ(database.get("b").data.signature, data.signature);
+  }
+  SQLite::Database raw(file_.string());
+  EXPECT_EQ(raw.execAndGet("SELECT count(*) FROM signatures").getInt(), 1);
+}
+
+TEST_F(DatabaseTest, UnusedContentIsDropped) {
+  {
+    Database database = create();
+    database.put({"a", {}, {}, {}}, dumbbell_data(1));
+    database.put({"a", {}, {}, {}}, dumbbell_data(2));
+    database.put({"b", {}, {}, {}}, dumbbell_data(3));
+    database.remove(std::vector<std::string>{"b"});
+  }
+  SQLite::Database raw(file_.string());
+  EXPECT_EQ(raw.execAndGet("SELECT count(*) FROM signatures").getInt(), 1);
+}
+
+TEST_F(DatabaseTest, ListFilters) {
+  Database database = create();
+  const ShapeData data = dumbbell_data();
+  database.put({"b", "cat", {"x", "y"}, {}}, data);
+  database.put({"a", "dog", {"x"}, {}}, data);
+  const auto names = [&](const ShapeFilter& filter) {
+    std::string joined;
+    for (const ShapeInfo& info : database.list(filter)) joined += info.name;
+    return joined;
+  };
+  EXPECT_EQ(names({}), "ab");
+  EXPECT_EQ(names({"cat", {}}), "b");
+  EXPECT_EQ(names({{}, "x"}), "ab");
+  EXPECT_EQ(names({"dog", "y"}), "");
+}
+
+TEST_F(DatabaseTest, RemoveIsAllOrNothing) {
+  Database database = create();
+  database.put({"a", {}, {}, {}}, dumbbell_data());
+  const std::string message = message_of(ErrorCode::kInput, [&] {
+    database.remove(std::vector<std::string>{"a", "missing"});
+  });
+  EXPECT_TRUE(holds(message, "'missing' is not in the database")) << message;
+  EXPECT_TRUE(database.find("a"));
+}
+
+TEST_F(DatabaseTest, Rename) {
+  Database database = create();
+  database.put({"a", "cat", {"x"}, {}}, dumbbell_data());
+  database.put({"b", {}, {}, {}}, dumbbell_data());
+  database.rename("a", "c");
+  EXPECT_FALSE(database.find("a"));
+  EXPECT_EQ(database.find("c"), (ShapeInfo{"c", "cat", {"x"}, {}}));
+  message_of(ErrorCode::kInput, [&] { database.rename("a", "d"); });
+  EXPECT_TRUE(holds(message_of(ErrorCode::kInput, [&] { database.rename("c", "b"); }), "another"));
+  message_of(ErrorCode::kUsage, [&] { database.rename("c", ""); });
+  EXPECT_TRUE(database.find("c"));
+}
+
+TEST_F(DatabaseTest, NamesThatCannotBe) {
+  Database database = create();
+  const ShapeData data = dumbbell_data();
+  for (const std::string& name :
+       {std::string(), std::string("a\nb"), std::string("\xff"), std::string(1025, 'a')}) {
+    message_of(ErrorCode::kUsage, [&] { database.put({name, {}, {}, {}}, data); });
+  }
+  EXPECT_EQ(database.put({"Tom’s cat; DROP TABLE shapes --", {}, {}, {}}, data), Change::kAdded);
+  EXPECT_EQ(database.size(), 1U);
+}
+
+TEST_F(DatabaseTest, TagsAreASet) {
+  Database database = create();
+  database.put({"a", {}, {"y", "x", "y"}, {}}, dumbbell_data());
+  EXPECT_EQ(database.find("a")->tags, (std::vector<std::string>{"x", "y"}));
+}
+
+TEST_F(DatabaseTest, FilesThatAreNoDatabase) {
+  const auto open = [&](Access access) {
+    return message_of(ErrorCode::kInput, [&] { (void)Database::open(file_, access); });
+  };
+  EXPECT_TRUE(holds(open(Access::kRead), "there is no such database"));
+  EXPECT_TRUE(holds(open(Access::kWrite), "there is no such database"));
+  write(file_,
+        "this is a text of more than a hundred bytes, which SQLite takes for a file that is "
+        "encrypted or none of its own");
+  for (const Access access : {Access::kRead, Access::kWrite, Access::kCreate}) {
+    EXPECT_TRUE(holds(open(access), "is not a database of morsel"));
+  }
+  std::filesystem::remove(file_);
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("CREATE TABLE birds (name TEXT)");
+  EXPECT_TRUE(holds(open(Access::kCreate), "but not a database of morsel"));
+  file_ = folder_;
+  EXPECT_TRUE(holds(open(Access::kCreate), "is a directory"));
+}
+
+TEST_F(DatabaseTest, AFolderThatIsMissing) {
+  file_ = folder_ / "missing" / "shapes.db";
+  message_of(ErrorCode::kOutput, [&] { (void)create(); });
+}
+
+TEST_F(DatabaseTest, NewerTablesAreRefused) {
+  create().put({"a", {}, {}, {}}, dumbbell_data());
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+  for (const Access access : {Access::kRead, Access::kWrite, Access::kCreate}) {
+    const std::string message =
+        message_of(ErrorCode::kInput, [&] { (void)Database::open(file_, access); });
+    EXPECT_TRUE(holds(message, "newer morsel (version 99")) << message;
+  }
+}
+
+TEST_F(DatabaseTest, AnEmptyFileBecomesADatabase) {
+  write(file_, "");
+  message_of(ErrorCode::kInput, [&] { (void)Database::open(file_, Access::kRead); });
+  EXPECT_EQ(create().size(), 0U);
+  EXPECT_EQ(Database::open(file_, Access::kRead).size(), 0U);
+}
+
+// Each of several threads has a connection of its own, as several programs would.
+TEST_F(DatabaseTest, ManyWritersAtOnce) {
+  constexpr int kWriters = 4;
+  constexpr int kShapes = 15;
+  const ShapeData data = dumbbell_data();
+  {
+    std::vector<std::jthread> writers;
+    for (int w = 0; w < kWriters; ++w) {
+      writers.emplace_back([&, w] {
+        Database database = create();
+        for (int i = 0; i < kShapes; ++i) {
+          const std::string own = std::to_string(w) + "-" + std::to_string(i);
+          database.put({own, {}, {}, {}}, data);
+          database.put({"shared-" + std::to_string(i), {}, {}, {}}, data);
+        }
+      });
+    }
+  }
+  const Database database = Database::open(file_, Access::kRead);
+  EXPECT_EQ(database.size(), static_cast<std::size_t>(kShapes * (kWriters + 1)));
+  EXPECT_TRUE(database.check().empty());
+}
+
+TEST_F(DatabaseTest, ContentKeysTellContentsApart) {
+  std::vector<Vec3> points = shapes::cube_cloud(100);
+  const std::string key = content_key(points, {});
+  EXPECT_EQ(key.size(), 32U);
+  EXPECT_EQ(content_key(points, {}), key);
+  SegmentOptions options;
+  options.threads = 7;
+  EXPECT_EQ(content_key(points, options), key);
+  options.interior.method = Method::kPaper;
+  EXPECT_NE(content_key(points, options), key);
+  points[50].y = std::nextafter(points[50].y, 2.0);
+  EXPECT_NE(content_key(points, {}), key);
+}
+
+}  // namespace
+}  // namespace morsel::store

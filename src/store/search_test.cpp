@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <morsel/database.hpp>
+#include <string>
+#include <vector>
+
+#include "store/test_database.hpp"
+
+namespace morsel::store {
+namespace {
+
+class SearchTest : public DatabaseTest {
+ protected:
+  // Names so that ties, the same content under two names, are not in the order of their storing.
+  void fill(Database& database, std::uint64_t count) {
+    const ShapeData first = dumbbell_data();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const ShapeData data = varied(first, i);
+      database.put({"z" + std::to_string(i), {}, {}, {}}, data);
+      if (i % 3 == 0) database.put({"a" + std::to_string(i), {}, {}, {}}, data);
+    }
+  }
+
+  // The answer by scoring every shape.
+  static std::vector<std::string> best(const Database& database, const Signature& query,
+                                       std::size_t top) {
+    std::vector<std::pair<double, std::string>> all;
+    for (const ShapeInfo& info : database.list()) {
+      all.emplace_back(-match_score(query, database.get(info.name).data.signature), info.name);
+    }
+    std::sort(all.begin(), all.end());
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < std::min(top, all.size()); ++i) names.push_back(all[i].second);
+    return names;
+  }
+
+  static std::vector<std::string> names_of(const std::vector<LookAlike>& hits) {
+    std::vector<std::string> names;
+    for (const LookAlike& hit : hits) names.push_back(hit.info.name);
+    return names;
+  }
+
+  [[nodiscard]] std::vector<std::filesystem::path> blocks() const {
+    std::vector<std::filesystem::path> paths;
+    for (const std::string& name : names_in_folder()) {
+      if (name.ends_with(".block")) paths.push_back(folder_ / name);
+    }
+    return paths;
+  }
+};
+
+TEST_F(SearchTest, EqualsTheExhaustiveAnswer) {
+  Database database = create();
+  fill(database, 30);
+  for (const std::uint64_t seed : {3U, 100U, 101U}) {
+    const Signature query = varied(dumbbell_data(), seed).signature;
+    for (const std::size_t top : {1U, 5U, 1000U}) {
+      EXPECT_EQ(names_of(database.search(query, top)), best(database, query, top));
+    }
+  }
+}
+
+TEST_F(SearchTest, FindsItselfFirst) {
+  Database database = create();
+  fill(database, 10);
+  const auto hits = database.search(database.get("z4").data.signature, 3);
+  ASSERT_EQ(hits.size(), 3U);
+  EXPECT_EQ(hits[0].info.name, "z4");
+  EXPECT_EQ(hits[0].score, 1.0);
+}
+
+TEST_F(SearchTest, AnEmptyDatabaseHasNoAnswer) {
+  EXPECT_TRUE(create().search(dumbbell_data().signature, 5).empty());
+}
+
+TEST_F(SearchTest, BlockFollowsTheDatabase) {
+  Database database = create();
+  fill(database, 5);
+  const Signature query = dumbbell_data().signature;
+  (void)database.search(query, 1);
+  const auto before = blocks();
+  ASSERT_EQ(before.size(), 1U);
+  (void)database.search(query, 1);
+  EXPECT_EQ(blocks(), before);
+  database.put({"itself", {}, {}, {}}, dumbbell_data());
+  EXPECT_EQ(database.search(query, 1).at(0).info.name, "itself");
+  ASSERT_EQ(blocks().size(), 1U);
+  EXPECT_NE(blocks(), before);
+  database.remove(std::vector<std::string>{"itself"});
+  EXPECT_NE(database.search(query, 1).at(0).info.name, "itself");
+}
+
+TEST_F(SearchTest, OtherWritersAreSeen) {
+  Database database = create();
+  fill(database, 3);
+  const Signature query = dumbbell_data().signature;
+  (void)database.search(query, 1);
+  create().put({"itself", {}, {}, {}}, dumbbell_data());
+  EXPECT_EQ(database.search(query, 1).at(0).info.name, "itself");
+}
+
+TEST_F(SearchTest, ADamagedBlockIsNeverTrusted) {
+  {
+    Database database = create();
+    fill(database, 6);
+  }
+  const Signature query = varied(dumbbell_data(), 2).signature;
+  const auto expected = names_of(create().search(query, 4));
+  const std::filesystem::path block = blocks().at(0);
+  const std::string good = content(block);
+  std::vector<std::string> bad{"", good.substr(0, good.size() / 2), good + "more"};
+  for (std::size_t at = 0; at < good.size(); at += good.size() / 60 + 1) {
+    bad.push_back(good);
+    bad.back()[at] = static_cast<char>(bad.back()[at] ^ 0x10);
+  }
+  for (const std::string& bytes : bad) {
+    write(block, bytes);
+    EXPECT_EQ(names_of(create().search(query, 4)), expected);
+  }
+}
+
+TEST_F(SearchTest, MatrixIsSymmetricWithOnesAndOrderedByClass) {
+  Database database = create();
+  const ShapeData first = dumbbell_data();
+  database.put({"c", "x", {}, {}}, varied(first, 1));
+  database.put({"a", "y", {}, {}}, varied(first, 2));
+  database.put({"b", "x", {}, {}}, varied(first, 3));
+  const SimilarityMatrix matrix = database.matrix({}, 2);
+  ASSERT_EQ(matrix.shapes.size(), 3U);
+  EXPECT_EQ(matrix.shapes[0].name + matrix.shapes[1].name + matrix.shapes[2].name, "bca");
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(matrix.scores[4 * i], 1.0);
+    for (std::size_t j = 0; j < i; ++j) {
+      const double score = match_score(database.get(matrix.shapes[i].name).data.signature,
+                                       database.get(matrix.shapes[j].name).data.signature);
+      EXPECT_EQ(matrix.scores[3 * i + j], score);
+      EXPECT_EQ(matrix.scores[3 * j + i], score);
+    }
+  }
+}
+
+TEST_F(SearchTest, MatrixCanBeCancelled) {
+  Database database = create();
+  fill(database, 5);
+  Progress progress;
+  progress.cancel();
+  EXPECT_EQ(message_of(ErrorCode::kCancelled, [&] { (void)database.matrix({}, 2, &progress); }),
+            "cancelled");
+}
+
+}  // namespace
+}  // namespace morsel::store
