@@ -10,16 +10,36 @@ _morsel_files() {
   fi
 }
 
+_morsel_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
+
 _morsel() {
-  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]}
+  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
+  local shapes='ply|pcd|xyz|txt|pts|csv|off|obj|npy|las|stl|gltf|glb'
+  local mesh='--sample --noise --seed --threads --help'
+  local segmenting='--method --big-ball-ratio --deep-angle --denoise'
+  local score='--method --no-mirror'
+  local options=''
   COMPREPLY=()
   shopt -q extglob || { shopt -s extglob; trap 'shopt -u extglob; trap - RETURN' RETURN; }
 
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'segment --help --version' -- "$cur")
+    _morsel_words 'segment index search compare matrix list show remove rename export import check
+      --help --version'
     return
   fi
-  [[ ${COMP_WORDS[1]} == segment ]] || return
+  case $command in
+    segment)
+      options="--labels --output --report --picture --html --parts --merge-ratio $segmenting $mesh" ;;
+    index) options="--database --class --tag $segmenting $mesh" ;;
+    search) options="--database --top --json --picture $score $mesh" ;;
+    compare) options="--database --json --picture $score $mesh" ;;
+    matrix) options="--database --output --picture $score --threads --help" ;;
+    list) options='--database --class --tag --json --help' ;;
+    show) options='--database --json --picture --thumbnail --help' ;;
+    export) options='--database --output --help' ;;
+    remove | rename | import | check) options='--database --help' ;;
+    *) return ;;
+  esac
 
   # "--option=value" arrives as three words.
   if [[ $cur == '=' ]]; then
@@ -28,22 +48,37 @@ _morsel() {
     prev=${COMP_WORDS[COMP_CWORD - 2]}
   fi
   case $prev in
-    --method) mapfile -t COMPREPLY < <(compgen -W 'default paper' -- "$cur") ;;
-    --denoise) mapfile -t COMPREPLY < <(compgen -W 'auto off 1 2 3' -- "$cur") ;;
+    --method) _morsel_words 'default paper' ;;
+    --denoise) _morsel_words 'auto off 1 2 3' ;;
     --labels) _morsel_files ;;
-    -o | --output) _morsel_files 'ply|pcd|xyz|npz' ;;
+    --database) _morsel_files db ;;
+    -o | --output)
+      case $command in
+        segment) _morsel_files 'ply|pcd|xyz|npz' ;;
+        matrix) _morsel_files csv ;;
+        *) _morsel_files ;;
+      esac
+      ;;
     --report) _morsel_files json ;;
     --picture) _morsel_files 'png|svg' ;;
     --html) _morsel_files 'html|htm' ;;
+    --thumbnail) _morsel_files png ;;
+    --class)
+      if [[ $command == index ]]; then
+        _morsel_files csv
+        [[ folder == "$cur"* ]] && COMPREPLY+=(folder)
+      fi
+      ;;
     --sample | --noise | --seed | --parts | --merge-ratio | --big-ball-ratio | --deep-angle | \
-      --threads) ;;
+      --threads | --top | --tag) ;;
     *)
       if [[ $cur == -* ]]; then
-        mapfile -t COMPREPLY < <(compgen -W '--labels --output --report --picture --html --parts
-          --merge-ratio --method --big-ball-ratio --deep-angle --denoise --threads --sample --noise
-          --seed --help' -- "$cur")
+        _morsel_words "$options"
       else
-        _morsel_files 'ply|pcd|xyz|txt|pts|csv|off|obj|npy|las|stl|gltf|glb'
+        case $command in
+          segment | index | search | compare) _morsel_files "$shapes" ;;
+          import) _morsel_files ;;
+        esac
       fi
       ;;
   esac

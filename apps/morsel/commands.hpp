@@ -19,7 +19,18 @@ enum ExitStatus : int {
 /// The work that the command line asks for, set while it is parsed; returns the exit status.
 using Command = std::function<int()>;
 
-/// Adds `morsel segment` to `app`; when it is given, `chosen` becomes its work.
+/// Each adds the command of its name to `app`; when it is given, `chosen` becomes its work.
 void add_segment(CLI::App& app, Command& chosen);
+void add_index(CLI::App& app, Command& chosen);
+void add_search(CLI::App& app, Command& chosen);
+void add_compare(CLI::App& app, Command& chosen);
+void add_matrix(CLI::App& app, Command& chosen);
+void add_list(CLI::App& app, Command& chosen);
+void add_show(CLI::App& app, Command& chosen);
+void add_remove(CLI::App& app, Command& chosen);
+void add_rename(CLI::App& app, Command& chosen);
+void add_export(CLI::App& app, Command& chosen);
+void add_import(CLI::App& app, Command& chosen);
+void add_check(CLI::App& app, Command& chosen);
 
 }  // namespace morsel::cli

@@ -24,8 +24,10 @@ constexpr const char* kExamples = R"(Examples:
   morsel segment scan.ply                           show the parts of a scan
   morsel segment scan.ply -o parts.ply              write the points in their parts' colours
   morsel segment chair.off --picture chair.png      sample a mesh, draw its parts
+  morsel index --database shapes.db models/         store the shapes of a folder
+  morsel search --database shapes.db scan.ply       find those that look like a scan
 
-'morsel segment --help' lists the options; 'man morsel' has it all.)";
+'morsel COMMAND --help' lists the options; 'man morsel' has it all.)";
 
 // CLI11's layout without its double blank lines, and with one above the usage.
 class HelpFormatter : public CLI::Formatter {
@@ -115,7 +117,8 @@ int report(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Cuts noisy point clouds of solid objects into their parts.", "morsel");
+  CLI::App app("Cuts noisy point clouds of solid objects into their parts and finds look-alikes.",
+               "morsel");
   app.set_help_flag("-h,--help", "Show this help");
   app.set_version_flag(
       "--version", [] { return "morsel " + version(); }, "Show the version");
@@ -127,7 +130,10 @@ int run(int argc, char** argv) {
   app.footer(kExamples);
   app.require_subcommand(0, 1);
   Command chosen;
-  add_segment(app, chosen);
+  for (const auto add : {add_segment, add_index, add_search, add_compare, add_matrix, add_list,
+                         add_show, add_remove, add_rename, add_export, add_import, add_check}) {
+    add(app, chosen);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

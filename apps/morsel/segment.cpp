@@ -17,6 +17,7 @@
 
 #include "commands.hpp"
 #include "numbers.hpp"
+#include "options.hpp"
 #include "outputs.hpp"
 #include "terminal.hpp"
 
@@ -57,75 +58,6 @@ struct Arguments {
 
 // ---- options -----------------------------------------------------------------------------------
 
-// An option whose text `read(name, text)` turns into a value; `value` stands for it in the help.
-template <class Read>
-CLI::Option* add(CLI::App& app, const std::string& names, const char* value,
-                 const std::string& description, Read read) {
-  const std::string name = names.substr(names.find("--"));
-  return app
-      .add_option_function<std::string>(
-          names, [name, read](const std::string& text) { read(name, text); }, description)
-      ->option_text(value);
-}
-
-void add_mesh_options(CLI::App& app, Arguments& arguments) {
-  SampleOptions& sample = arguments.sample;
-  const std::string group = "Sampling (meshes only)";
-  add(app, "--sample", "N", "Points on the surface [20000]",
-      [&sample](const std::string& name, const std::string& text) {
-        sample.count = whole_number(name, text, 1, std::uint64_t{1} << 31);
-      })
-      ->group(group);
-  add(app, "--noise", "S", "Gaussian noise, as a fraction of the diagonal [0]",
-      [&sample](const std::string& name, const std::string& text) {
-        sample.noise = number(name, text, {0.0, 1.0});
-      })
-      ->group(group);
-  add(app, "--seed", "N", "Of the random numbers [1]",
-      [&sample](const std::string& name, const std::string& text) {
-        sample.seed = whole_number(name, text, 0, std::numeric_limits<std::uint64_t>::max());
-      })
-      ->group(group);
-}
-
-void add_method_options(CLI::App& app, SegmentOptions& options) {
-  InteriorOptions& interior = options.interior;
-  add(app, "--method", "default|paper", "Robust rules, or the paper's to the letter [default]",
-      [&interior](const std::string& name, const std::string& text) {
-        if (text != "default" && text != "paper") {
-          throw CLI::ValidationError(name, fmt::format("'{}' is not default or paper", text));
-        }
-        interior.method = text == "paper" ? Method::kPaper : Method::kDefault;
-      })
-      ->group("Method");
-  add(app, "--big-ball-ratio", "R", "Paper: balls above R times the spacing are big [0.5]",
-      [&interior](const std::string& name, const std::string& text) {
-        interior.big_ball_ratio = number(name, text, {0.0, kUnbounded, false});
-      })
-      ->group("Method");
-  add(app, "--deep-angle", "DEGREES", "Paper: balls below this angle meet deeply [60]",
-      [&interior](const std::string& name, const std::string& text) {
-        interior.deep_angle = number(name, text, {0.0, 180.0});
-      })
-      ->group("Method");
-  add(app, "--denoise", "auto|off|K", "Smooth K times first, 1 to 20 [auto]",
-      [&options](const std::string& name, const std::string& text) {
-        if (text == "auto") return;
-        if (!text.empty() && (text[0] < '0' || text[0] > '9') && text != "off") {
-          throw CLI::ValidationError(name, fmt::format("'{}' is not auto, off or 0 to 20", text));
-        }
-        options.denoise.rounds =
-            text == "off" ? 0 : static_cast<int>(whole_number(name, text, 0, 20));
-      })
-      ->group("Method");
-  add(app, "--threads", "N", "0 for all cores; the result is the same [0]",
-      [&options](const std::string& name, const std::string& text) {
-        options.threads = static_cast<int>(whole_number(name, text, 0, 1024));
-        options.denoise.threads = options.threads;
-      })
-      ->group("Method");
-}
-
 void add_cut_options(CLI::App& app, CutOptions& cut) {
   CLI::Option* const parts = add(app, "--parts", "K", "This many parts [the program decides]",
                                  [&cut](const std::string& name, const std::string& text) {
@@ -138,14 +70,6 @@ void add_cut_options(CLI::App& app, CutOptions& cut) {
       })
       ->group("Parts")
       ->excludes(parts);
-}
-
-void add_output(CLI::App& app, const std::string& names, const char* value, Output& output,
-                const std::string& description) {
-  add(app, names, value, description, [&output](const std::string& name, const std::string& text) {
-    if (text.empty()) throw CLI::ValidationError(name, "the file name is empty");
-    output.path = text;
-  })->group("Results");
 }
 
 void add_outputs(CLI::App& app, Arguments& arguments) {
@@ -166,18 +90,8 @@ void check_combinations(const CLI::App& app, Arguments& arguments) {
                                "this build of morsel has no viewer; install Node.js and "
                                "npm and build it again");
   }
-  const bool paper = arguments.options.interior.method == Method::kPaper;
-  for (const char* name : {"--big-ball-ratio", "--deep-angle"}) {
-    if (!paper && app.count(name) > 0) {
-      throw CLI::ValidationError(name, "is an option of the paper's method; add --method paper");
-    }
-  }
-  if (paper && app.count("--denoise") > 0) {
-    throw CLI::ValidationError("--denoise", "the paper's method takes the points as they are");
-  }
-  for (const char* name : {"--sample", "--noise", "--seed"}) {
-    if (app.count(name) > 0) arguments.mesh_options.emplace_back(name);
-  }
+  check_method_options(app, arguments.options);
+  arguments.mesh_options = given_mesh_options(app);
 }
 
 // ---- results -----------------------------------------------------------------------------------
@@ -331,7 +245,7 @@ void add_segment(CLI::App& app, Command& chosen) {
   add_outputs(*command, *arguments);
   add_cut_options(*command, arguments->options.cut);
   add_method_options(*command, arguments->options);
-  add_mesh_options(*command, *arguments);
+  add_mesh_options(*command, arguments->sample);
   command->footer(kExamples);
   command->group("Commands");
   command->callback([command, arguments, &chosen] {

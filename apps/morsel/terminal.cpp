@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <morsel/error.hpp>
+#include <utility>
 
 #include "commands.hpp"
 
@@ -61,8 +62,9 @@ void catch_interrupts() {
   }
 }
 
-Task::Task()
-    : progress_([this](std::string_view stage, double fraction) { draw(stage, fraction); }),
+Task::Task(Label label)
+    : label_(std::move(label)),
+      progress_([this](std::string_view stage, double fraction) { draw(stage, fraction); }),
       on_terminal_(::isatty(STDERR_FILENO) == 1) {
   running.store(&progress_);
 }
@@ -83,14 +85,15 @@ void Task::draw(std::string_view stage, double fraction) {
   if (!on_terminal_) return;
   const std::lock_guard lock(mutex_);
   const int percent = static_cast<int>(std::floor(100.0 * std::clamp(fraction, 0.0, 1.0)));
-  if (percent == percent_ && stage == stage_) return;
+  const std::string text = label_ ? label_(stage, fraction) : std::string(stage);
+  if (percent == percent_ && text == text_) return;
   percent_ = percent;
-  stage_ = stage;
+  text_ = text;
   drawn_ = true;
   constexpr int kWidth = 30;
   const auto filled = static_cast<std::size_t>(kWidth * percent / 100);
   const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-  fmt::print(stderr, "\r[{}] {:3}% {}\x1b[K", bar, percent, stage);
+  fmt::print(stderr, "\r[{}] {:3}% {}\x1b[K", bar, percent, text);
   std::fflush(stderr);
 }
 

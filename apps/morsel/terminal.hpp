@@ -1,6 +1,7 @@
 // What the person at the terminal sees and presses: results, messages, the progress bar, Ctrl-C.
 #pragma once
 
+#include <functional>
 #include <morsel/progress.hpp>
 #include <mutex>
 #include <string>
@@ -22,7 +23,10 @@ void catch_interrupts();
 /// it. At most one at a time.
 class Task {
  public:
-  Task();
+  /// What stands beside the bar, made from the stage and the share of the work that is done.
+  using Label = std::function<std::string(std::string_view stage, double fraction)>;
+
+  explicit Task(Label label = {});
   ~Task();
   Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;
@@ -37,12 +41,13 @@ class Task {
   void draw(std::string_view stage, double fraction);
   void clear();
 
+  Label label_;
   Progress progress_;
   std::mutex mutex_;  // stages may report from any of their threads
   bool on_terminal_ = false;
   bool drawn_ = false;
   int percent_ = -1;
-  std::string stage_;
+  std::string text_;
 };
 
 }  // namespace morsel::cli

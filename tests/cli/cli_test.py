@@ -3,70 +3,21 @@
 
 import json
 import os
-import pathlib
 import pty
 import random
 import re
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 import xml.etree.ElementTree
 import zipfile
 
+import cli
 import shapes
-
-PROJECT = pathlib.Path(__file__).resolve().parents[2]
-MORSEL = None
-DONE, USAGE, INPUT, NO_SOLID, INTERRUPTED = 0, 2, 3, 4, 130
-LONG_OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
-
-
-def obey_signals():
-    """Programs that a script starts in the background ignore SIGINT otherwise."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
-class CliTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="morsel-cli-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-        self.environment = {**os.environ, "LC_ALL": "C.UTF-8"}
-
-    def put(self, name, content):
-        path = self.folder / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    def dumbbell(self, count=4000):
-        return self.put("dumbbell.xyz", shapes.xyz(shapes.dumbbell(count)))
-
-    def run_morsel(self, *arguments, **options):
-        return subprocess.run([MORSEL, *map(str, arguments)], capture_output=True, cwd=self.folder,
-                              env=self.environment, timeout=300, check=False, **options)
-
-    def segment(self, *arguments, **options):
-        """Runs to success, in silence; returns standard output."""
-        done = self.run_morsel("segment", *arguments, **options)
-        self.assertEqual((done.returncode, done.stderr.decode()), (DONE, ""))
-        return done.stdout.decode()
-
-    def refuse(self, status, pattern, *arguments, **options):
-        """Runs to failure with one line on standard error and no new file."""
-        before = sorted(self.folder.rglob("*"))
-        done = self.run_morsel(*arguments, **options)
-        message = done.stderr.decode()
-        self.assertEqual(done.returncode, status, message)
-        self.assertRegex(message, r"\Amorsel: [^\n]+\n\Z")
-        self.assertRegex(message, pattern)
-        self.assertEqual(done.stdout, b"")
-        self.assertEqual(sorted(self.folder.rglob("*")), before)
-
-    def labels(self, name="labels.txt"):
-        return [int(line) for line in (self.folder / name).read_text().splitlines()]
+from cli import (DONE, INPUT, INTERRUPTED, LONG_OPTION, NO_SOLID, PROJECT, USAGE, CliTest,
+                 obey_signals)
 
 
 class Help(CliTest):
@@ -75,20 +26,36 @@ class Help(CliTest):
         self.assertEqual(done.returncode, DONE)
         self.assertRegex(done.stdout.decode(), r"\Amorsel \d+\.\d+\.\d+\n\Z")
 
+    def commands(self):
+        """Those that the help lists."""
+        text = self.run_morsel("--help").stdout.decode()
+        return re.findall(r"^  ([a-z]+) +[A-Z]", text.split("Examples:")[0], re.MULTILINE)
+
+    def options(self):
+        return set().union(*(LONG_OPTION.findall(self.run_morsel(c, "--help").stdout.decode())
+                             for c in self.commands()))
+
+    def test_help_lists_the_commands(self):
+        self.assertEqual(sorted(self.commands()), [
+            "check", "compare", "export", "import", "index", "list", "matrix", "remove", "rename",
+            "search", "segment", "show"])
+
     def test_help_has_examples(self):
-        for arguments in (["--help"], ["-h"], ["segment", "--help"], ["segment", "-h"]):
-            done = self.run_morsel(*arguments)
-            self.assertEqual((done.returncode, done.stderr), (DONE, b""))
-            self.assertIn("Examples:\n  morsel segment ", done.stdout.decode())
+        for arguments in ([], *([command] for command in self.commands())):
+            for flag in ("--help", "-h"):
+                done = self.run_morsel(*arguments, flag)
+                self.assertEqual((done.returncode, done.stderr), (DONE, b""))
+                self.assertIn("Examples:\n  morsel " + (*arguments, "segment")[0] + " ",
+                              done.stdout.decode())
 
     def test_help_fits_the_terminal(self):
-        for arguments in (["--help"], ["segment", "--help"]):
-            for line in self.run_morsel(*arguments).stdout.decode().splitlines():
+        for arguments in ([], *([command] for command in self.commands())):
+            for line in self.run_morsel(*arguments, "--help").stdout.decode().splitlines():
                 self.assertLessEqual(len(line), 100, line)
 
     def test_man_page_and_completions_know_every_option(self):
-        options = set(LONG_OPTION.findall(self.run_morsel("segment", "--help").stdout.decode()))
-        self.assertGreaterEqual(len(options), 15)
+        options = self.options()
+        self.assertGreaterEqual(len(options), 20)
         man = (PROJECT / "docs/man/morsel.1").read_text().replace("\\-", "-")
         self.assertLessEqual(options, set(LONG_OPTION.findall(man)))
         for shell in ("morsel.bash", "_morsel"):
@@ -99,8 +66,14 @@ class Help(CliTest):
 
     def test_man_page_describes_no_other_option(self):
         man = (PROJECT / "docs/man/morsel.1").read_text().replace("\\-", "-")
-        options = LONG_OPTION.findall(self.run_morsel("segment", "--help").stdout.decode())
-        self.assertLessEqual(set(LONG_OPTION.findall(man)), {*options, "--version"})
+        self.assertLessEqual(set(LONG_OPTION.findall(man)), {*self.options(), "--version"})
+
+    def test_man_page_and_completions_know_every_command(self):
+        man = (PROJECT / "docs/man/morsel.1").read_text()
+        for command in self.commands():
+            self.assertIn(f"morsel {command}", man)
+            for shell in ("morsel.bash", "_morsel", "morsel.fish"):
+                self.assertIn(command, (PROJECT / "completions" / shell).read_text(), shell)
 
     @unittest.skipUnless(shutil.which("bash"), "needs bash")
     def test_bash_completes(self):
@@ -112,10 +85,14 @@ class Help(CliTest):
             return done.stdout.split()
         self.put("scan.ply", "")
         self.put("notes.md", "")
-        self.assertEqual(complete("morsel", "se"), ["segment"])
+        self.assertEqual(complete("morsel", "seg"), ["segment"])
         self.assertEqual(complete("morsel", "segment", "--lab"), ["--labels"])
         self.assertEqual(complete("morsel", "segment", "--method", "p"), ["paper"])
         self.assertEqual(complete("morsel", "segment", "''"), ["scan.ply"])
+        self.put("shapes.db", "")
+        self.assertEqual(complete("morsel", "search", "--database", "''"), ["shapes.db"])
+        self.assertEqual(complete("morsel", "index", "--class", "fo"), ["folder"])
+        self.assertEqual(complete("morsel", "matrix", "--no"), ["--no-mirror"])
 
 
 class Usage(CliTest):
@@ -214,7 +191,7 @@ class Outputs(CliTest):
 
     def test_standard_output_that_is_full(self):
         with open("/dev/full", "wb") as full:
-            done = subprocess.run([MORSEL, "segment", str(self.dumbbell())], stdout=full,
+            done = subprocess.run([cli.MORSEL, "segment", str(self.dumbbell())], stdout=full,
                                   stderr=subprocess.PIPE, check=False)
         self.assertEqual(done.returncode, INPUT)
         self.assertRegex(done.stderr.decode(), r"\Amorsel: standard output: [^\n]+\n\Z")
@@ -237,7 +214,7 @@ class Outputs(CliTest):
             subprocess.run(["umount", small], check=True)
 
     def test_file_size_limit_leaves_nothing(self):
-        limited = f"ulimit -f 8; trap '' XFSZ; exec {MORSEL} segment {self.dumbbell()} -o a.ply"
+        limited = f"ulimit -f 8; trap '' XFSZ; exec {cli.MORSEL} segment {self.dumbbell()} -o a.ply"
         done = subprocess.run(["bash", "-c", limited], capture_output=True, cwd=self.folder,
                               check=False)
         self.assertEqual(done.returncode, INPUT, done.stderr)
@@ -441,7 +418,7 @@ class Segment(CliTest):
 
 class Interrupts(CliTest):
     def start(self, *arguments, **options):
-        return subprocess.Popen([MORSEL, "segment", *map(str, arguments)], cwd=self.folder,
+        return subprocess.Popen([cli.MORSEL, "segment", *map(str, arguments)], cwd=self.folder,
                                 stdout=subprocess.DEVNULL, preexec_fn=obey_signals, **options)
 
     def test_signals_leave_nothing(self):
@@ -484,7 +461,4 @@ class Interrupts(CliTest):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    MORSEL = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    cli.main(__doc__)

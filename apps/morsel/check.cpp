@@ -1,0 +1,51 @@
+// morsel check --database DB: whether a database is as it was written.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <morsel/database.hpp>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "options.hpp"
+#include "terminal.hpp"
+
+namespace morsel::cli {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  morsel check --database shapes.db
+
+Every row is read and decoded, every checksum compared. What is wrong comes on standard error, a
+line each, and the exit status is 3.)";
+
+struct Arguments {
+  std::filesystem::path database;
+};
+
+int run_check(const Arguments& arguments) {
+  const Database database = Database::open(arguments.database, Access::kRead);
+  Task task;
+  const std::vector<std::string> findings = database.check(&task.progress());
+  task.begin_writing();
+  for (const std::string& finding : findings) complain(finding);
+  if (!findings.empty()) return kBadInput;
+  say(fmt::format("{}: {} shapes, nothing wrong\n", arguments.database.string(), database.size()));
+  return kDone;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Command& chosen) {
+  CLI::App* const command = app.add_subcommand("check", "Verify every byte of the database");
+  const auto arguments = std::make_shared<Arguments>();
+  add_database(*command, arguments->database);
+  command->footer(kExamples);
+  command->group("Database");
+  command->callback(
+      [arguments, &chosen] { chosen = [arguments] { return run_check(*arguments); }; });
+}
+
+}  // namespace morsel::cli

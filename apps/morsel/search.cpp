@@ -1,0 +1,139 @@
+// morsel search --database DB QUERY: the stored shapes that look most like one.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <morsel/database.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "numbers.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+#include "shapes.hpp"
+#include "terminal.hpp"
+
+namespace morsel::cli {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  morsel search --database shapes.db scan.ply --top 5
+  morsel search --database shapes.db models/cat.off     a shape that is stored already
+  morsel search --database shapes.db scan.ply --picture hits.png
+  morsel search --database shapes.db scan.ply --json | jq '.hits[0]'
+
+QUERY is looked up among the stored names first, then taken as a file.)";
+
+struct Arguments {
+  std::filesystem::path database;
+  std::string query;
+  std::size_t top = 10;
+  MatchOptions match;
+  ReadOptions read;
+  bool json = false;
+  Output picture{"--picture", {}, {".png"}};
+};
+
+struct Answer {
+  Subject query;
+  std::vector<LookAlike> hits;
+  std::vector<Subject> shapes;  // of the hits
+  std::vector<Match> matches;   // target: the query
+};
+
+// Columns as wide as their widest entry.
+std::string table(const Answer& answer) {
+  std::size_t widest = 4;
+  for (const LookAlike& hit : answer.hits) widest = std::max(widest, hit.info.name.size());
+  std::string text = fmt::format("   #  score  {:20}  {:{}}  class\n", "", "name", widest);
+  for (std::size_t i = 0; i < answer.hits.size(); ++i) {
+    const LookAlike& hit = answer.hits[i];
+    text +=
+        fmt::format("{:4}  {:.3f}  {}  {:{}}  {}\n", i + 1, hit.score, score_bar(hit.score),
+                    hit.info.name, widest, hit.info.class_name.empty() ? "-" : hit.info.class_name);
+  }
+  return text;
+}
+
+std::string json_text(const Answer& answer, const Arguments& arguments) {
+  using Json = nlohmann::ordered_json;
+  Json json;
+  json["query"] = answer.query.name;
+  json["database"] = arguments.database.string();
+  json["method"] = arguments.match.method == Method::kPaper ? "paper" : "default";
+  json["hits"] = Json::array();
+  for (std::size_t i = 0; i < answer.hits.size(); ++i) {
+    const LookAlike& hit = answer.hits[i];
+    Json entry;
+    entry["rank"] = i + 1;
+    entry["name"] = hit.info.name;
+    entry["class"] = hit.info.class_name;
+    entry["tags"] = hit.info.tags;
+    entry["source"] = hit.info.source;
+    entry.update(Json::parse(match_json(answer.matches[i])));
+    json["hits"].push_back(std::move(entry));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Answer find_answer(const Arguments& arguments, const Progress& progress) {
+  const Database database = Database::open(arguments.database, Access::kRead);
+  Answer answer;
+  answer.query = find_subject(arguments.query, &database, arguments.read, progress);
+  answer.hits = database.search(answer.query.signature, arguments.top, arguments.match);
+  if (!arguments.json && arguments.picture.path.empty()) return answer;
+  for (const LookAlike& hit : answer.hits) {
+    answer.shapes.push_back(stored_subject(database, hit.info.name));
+    answer.matches.push_back(
+        match(answer.query.signature, answer.shapes.back().signature, arguments.match));
+  }
+  return answer;
+}
+
+int run_search(const Arguments& arguments) {
+  check_outputs({arguments.picture}, arguments.query);
+  Task task;
+  const Answer answer = find_answer(arguments, task.progress());
+  task.begin_writing();
+  if (!arguments.picture.path.empty()) {
+    std::vector<Aligned> others;
+    for (std::size_t i = 0; i < answer.hits.size(); ++i) {
+      others.push_back({&answer.shapes[i], answer.matches[i]});
+    }
+    write_png(arguments.picture.path, draw_aligned(answer.query, others));
+  }
+  say(arguments.json ? json_text(answer, arguments) : table(answer));
+  return kDone;
+}
+
+}  // namespace
+
+void add_search(CLI::App& app, Command& chosen) {
+  CLI::App* const command = app.add_subcommand("search", "Find the stored shapes most like one");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("QUERY", arguments->query, "Name of a stored shape, file, or - for XYZ")
+      ->required()
+      ->option_text(" ");
+  add_database(*command, arguments->database);
+  add(*command, "--top", "K", "Show this many [10]",
+      [arguments](const std::string& name, const std::string& text) {
+        arguments->top = whole_number(name, text, 1, 1'000'000);
+      });
+  add_json(*command, arguments->json);
+  add_output(*command, "--picture", "FILE.png", arguments->picture,
+             "The query and what was found, side by side in one pose");
+  add_match_options(*command, arguments->match);
+  add_mesh_options(*command, arguments->read.sample);
+  add_threads(*command, arguments->read.threads, "Sampling (meshes only)");
+  command->footer(kExamples);
+  command->group("Look-alikes");
+  command->callback(
+      [arguments, &chosen] { chosen = [arguments] { return run_search(*arguments); }; });
+}
+
+}  // namespace morsel::cli

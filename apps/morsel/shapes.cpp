@@ -1,0 +1,127 @@
+#include "shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <morsel/error.hpp>
+#include <morsel/picture.hpp>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "suggest.hpp"
+
+namespace morsel::cli {
+namespace {
+
+Subject read_subject(const std::string& file, const ReadOptions& options,
+                     const Progress& progress) {
+  const PointCloud cloud = read_points(file, options.sample);
+  SegmentOptions segment_options;
+  segment_options.threads = options.threads;
+  const Segmentation result = segment(cloud.points, segment_options, &progress);
+  if (!(result.signature.size > 0.0)) {
+    throw Error(ErrorCode::kInput, fmt::format("{}: {}", file, result.message));
+  }
+  return {file == "-" ? "standard input" : file, result.signature, make_sketch(result)};
+}
+
+[[noreturn]] void fail_unknown(const std::string& text, const Database* database) {
+  if (database == nullptr) {
+    throw Error(ErrorCode::kInput,
+                fmt::format("{}: there is no such file; for a stored name give --database", text));
+  }
+  std::vector<std::string> names;
+  for (ShapeInfo& info : database->list()) names.push_back(std::move(info.name));
+  const std::string meant = nearest_name(text, names);
+  throw Error(
+      ErrorCode::kInput,
+      fmt::format("{}: is neither a shape of {} nor a file{}", text, database->file().string(),
+                  meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
+}
+
+std::vector<Vec3> moved(const std::vector<Vec3>& points, const std::array<double, 16>& m) {
+  std::vector<Vec3> result;
+  result.reserve(points.size());
+  for (const Vec3& p : points) {
+    const auto row = [&](std::size_t r) {
+      return m[4 * r] * p.x + m[4 * r + 1] * p.y + m[4 * r + 2] * p.z + m[4 * r + 3];
+    };
+    result.push_back({row(0), row(1), row(2)});
+  }
+  return result;
+}
+
+// For each point of the source the part of the target that its own lies on, -1 for none.
+std::vector<int> parts_of_target(const std::vector<int>& parts, const Match& match) {
+  std::vector<int> result;
+  result.reserve(parts.size());
+  for (const int part : parts) {
+    const auto at = std::find_if(match.matched.begin(), match.matched.end(),
+                                 [&](const MatchedPart& pair) { return pair.source == part; });
+    result.push_back(at == match.matched.end() ? -1 : at->target);
+  }
+  return result;
+}
+
+}  // namespace
+
+Subject stored_subject(const Database& database, const std::string& name) {
+  StoredShape shape = database.get(name);
+  return {name, std::move(shape.data.signature), std::move(shape.data.sketch)};
+}
+
+Subject find_subject(const std::string& text, const Database* database, const ReadOptions& options,
+                     const Progress& progress) {
+  if (database != nullptr && database->find(text)) return stored_subject(*database, text);
+  std::error_code error;
+  if (text != "-" && !std::filesystem::exists(text, error)) fail_unknown(text, database);
+  return read_subject(text, options, progress);
+}
+
+std::string score_bar(double score) {
+  constexpr std::size_t kWidth = 20;
+  const auto filled = static_cast<std::size_t>(std::lround(kWidth * std::clamp(score, 0.0, 1.0)));
+  return std::string(filled, '#') + std::string(kWidth - filled, '.');
+}
+
+Image draw_aligned(const Subject& first, const std::vector<Aligned>& others) {
+  constexpr std::size_t kColumns = 5;
+  PictureOptions options;
+  options.width = 240;
+  options.views = 1;
+  options.pose_of = first.sketch.points;
+  std::vector<Image> cells{render_parts(first.sketch.points, first.sketch.parts, options)};
+  std::vector<std::string> captions{first.name};
+  for (const Aligned& other : others) {
+    const Sketch& sketch = other.shape->sketch;
+    cells.push_back(render_parts(moved(sketch.points, other.match.target_from_source),
+                                 parts_of_target(sketch.parts, other.match), options));
+    captions.push_back(fmt::format("{:.3f} {}", other.match.score, other.shape->name));
+  }
+  return make_sheet(cells, captions, std::min(kColumns, cells.size()));
+}
+
+std::string match_json(const Match& match) {
+  nlohmann::ordered_json json;
+  json["score"] = match.score;
+  json["mirrored"] = match.mirrored;
+  json["target_from_source"] = match.target_from_source;
+  json["matched"] = nlohmann::ordered_json::array();
+  for (const MatchedPart& pair : match.matched) {
+    json["matched"].push_back(
+        {{"target", pair.target}, {"source", pair.source}, {"contribution", pair.contribution}});
+  }
+  json["unmatched_target"] = match.unmatched_target;
+  json["unmatched_source"] = match.unmatched_source;
+  return json.dump();
+}
+
+std::string join_tags(const std::vector<std::string>& tags) {
+  return fmt::format("{}", fmt::join(tags, ", "));
+}
+
+}  // namespace morsel::cli

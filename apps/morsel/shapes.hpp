@@ -1,0 +1,49 @@
+// The shapes that a command compares: files, or names in a database.
+#pragma once
+
+#include <filesystem>
+#include <morsel/database.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace morsel::cli {
+
+/// A shape ready to be compared and drawn.
+struct Subject {
+  std::string name;
+  Signature signature;
+  Sketch sketch;
+};
+
+/// How files are read.
+struct ReadOptions {
+  SampleOptions sample;
+  int threads = 0;
+};
+
+/// The shape stored under the name `text`, or else that of the file `text`; "-" is standard input.
+/// Throws Error(kInput) when there is neither.
+[[nodiscard]] Subject find_subject(const std::string& text, const Database* database,
+                                   const ReadOptions& options, const Progress& progress);
+
+[[nodiscard]] Subject stored_subject(const Database& database, const std::string& name);
+
+/// "########..", 20 wide.
+[[nodiscard]] std::string score_bar(double score);
+
+/// Shapes side by side, each turned onto the first by its match with it. Parts have the colour of
+/// the first's part that they lie on, grey where there is none.
+struct Aligned {
+  const Subject* shape;
+  Match match;  ///< target: the first shape
+};
+[[nodiscard]] Image draw_aligned(const Subject& first, const std::vector<Aligned>& others);
+
+/// The match as JSON text: score, mirrored, target_from_source, matched, unmatched.
+[[nodiscard]] std::string match_json(const Match& match);
+
+/// "name, name"
+[[nodiscard]] std::string join_tags(const std::vector<std::string>& tags);
+
+}  // namespace morsel::cli
