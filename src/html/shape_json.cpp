@@ -11,9 +11,10 @@
 #include <morsel/color.hpp>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <vector>
 
-#include "html/base64.hpp"
+#include "base/base64.hpp"
 #include "picture/surfels.hpp"
 #include "picture/views.hpp"
 
@@ -27,8 +28,13 @@ using picture::Surfel;
 constexpr std::size_t kPaletteSize = 24;  // part_color repeats after these
 
 template <typename Value>
+std::string_view bytes_of(const std::vector<Value>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+
+template <typename Value>
 Json array_json(const char* type, const std::vector<Value>& values) {
-  return {{"type", type}, {"data", encode_base64(std::as_bytes(std::span(values)))}};
+  return {{"type", type}, {"data", encode_base64(bytes_of(values))}};
 }
 Json array_json(const std::vector<std::uint8_t>& values) { return array_json("u8", values); }
 Json array_json(const std::vector<std::int8_t>& values) { return array_json("i8", values); }
