@@ -103,10 +103,6 @@ Vec3 read_vector(io::ByteReader& reader) {
   return v;
 }
 
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 }  // namespace
 
 Sketch make_sketch(const Segmentation& segmentation) {
