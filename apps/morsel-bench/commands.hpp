@@ -6,6 +6,8 @@
 namespace morsel::bench {
 
 void add_interior(CLI::App& app);
+void add_retrieval(CLI::App& app);
+void add_search(CLI::App& app);
 void add_segmentation(CLI::App& app);
 void add_time(CLI::App& app);
 

@@ -34,6 +34,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   morsel::bench::add_segmentation(app);
   morsel::bench::add_interior(app);
+  morsel::bench::add_retrieval(app);
+  morsel::bench::add_search(app);
   morsel::bench::add_time(app);
   try {
     app.parse(argc, argv);

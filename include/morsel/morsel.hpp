@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <morsel/color.hpp>
+#include <morsel/d2.hpp>
 #include <morsel/delaunay.hpp>
 #include <morsel/denoise.hpp>
 #include <morsel/error.hpp>

@@ -1,9 +1,12 @@
 #include "match/align.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace morsel {
 namespace {
@@ -11,6 +14,8 @@ namespace {
 // Standard deviation, in RMS radii, by which blobs are smoothed: shapes of one kind need not agree
 // closer.
 constexpr double kSmoothing = 0.2;
+// Starts that are refined; more find nothing better on the development shapes.
+constexpr std::size_t kRefinedStarts = 6;
 
 Eigen::Matrix3d principal_axes(const std::vector<Blob>& blobs) {
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
@@ -18,6 +23,49 @@ Eigen::Matrix3d principal_axes(const std::vector<Blob>& blobs) {
     moments += blob.weight * (blob.covariance + blob.mean * blob.mean.transpose());
   }
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors();
+}
+
+// Rotations spread evenly over all of them.
+// Source: M. Alexa, "Super-Fibonacci Spirals: Fast, Low-Discrepancy Sampling of SO(3)", CVPR 2022.
+std::vector<Eigen::Matrix3d> spread_rotations() {
+  constexpr int kCount = 200;
+  constexpr double kPhi = std::numbers::sqrt2;
+  constexpr double kPsi = 1.533751168755204288118041;
+  std::vector<Eigen::Matrix3d> all;
+  for (int i = 0; i < kCount; ++i) {
+    const double s = i + 0.5;
+    const double r = std::sqrt(s / kCount);
+    const double big = std::sqrt(1.0 - s / kCount);
+    const double alpha = 2.0 * std::numbers::pi * s / kPhi;
+    const double beta = 2.0 * std::numbers::pi * s / kPsi;
+    const Eigen::Quaterniond turn(big * std::cos(beta), r * std::sin(alpha), r * std::cos(alpha),
+                                  big * std::sin(beta));
+    all.push_back(turn.normalized().toRotationMatrix());
+  }
+  return all;
+}
+
+// Climbs by small turns about the three axes, halving them when none helps.
+Alignment refine(const std::vector<Blob>& target, const std::vector<Blob>& source,
+                 Alignment alignment) {
+  constexpr double kFirstTurn = 0.2;
+  constexpr double kLastTurn = 1e-4;
+  for (double turn = kFirstTurn; turn > kLastTurn;) {
+    bool better = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double angle : {turn, -turn}) {
+        Alignment next = alignment;
+        next.target_from_source =
+            Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)) * alignment.target_from_source;
+        next.overlap = overlap(target, moved(source, next));
+        if (next.overlap <= alignment.overlap) continue;
+        alignment = next;
+        better = true;
+      }
+    }
+    if (!better) turn *= 0.5;
+  }
+  return alignment;
 }
 
 // All ways to lay three axes onto three axes: 6 orders with 8 choices of signs.
@@ -64,25 +112,37 @@ double overlap(const std::vector<Blob>& a, const std::vector<Blob>& b) {
   return sum;
 }
 
-std::vector<Blob> turned(const std::vector<Blob>& blobs, const Eigen::Matrix3d& by) {
+std::vector<Blob> moved(const std::vector<Blob>& blobs, const Alignment& by) {
   std::vector<Blob> result = blobs;
   for (Blob& blob : result) {
-    blob.mean = by * blob.mean;
-    blob.covariance = by * blob.covariance * by.transpose();
+    blob.mean = by.target_from_source * blob.mean + by.shift;
+    blob.covariance = by.target_from_source * blob.covariance * by.target_from_source.transpose();
   }
   return result;
 }
 
 Alignment align(const std::vector<Blob>& target, const std::vector<Blob>& source, bool mirror) {
-  Alignment best;
-  if (target.empty() || source.empty()) return best;
+  if (target.empty() || source.empty()) return {};
+  std::vector<Alignment> starts;
+  const auto add_start = [&](const Eigen::Matrix3d& turn) {
+    if (!mirror && turn.determinant() < 0.0) return;
+    Alignment start;
+    start.target_from_source = turn;
+    start.overlap = overlap(target, moved(source, start));
+    starts.push_back(start);
+  };
   const Eigen::Matrix3d to = principal_axes(target);
   const Eigen::Matrix3d from = principal_axes(source).transpose();
-  for (const Eigen::Matrix3d& permutation : axis_permutations()) {
-    const Eigen::Matrix3d turn = to * permutation * from;
-    if (!mirror && turn.determinant() < 0.0) continue;
-    const double value = overlap(target, turned(source, turn));
-    if (value > best.overlap) best = {turn, value};
+  for (const Eigen::Matrix3d& permutation : axis_permutations()) add_start(to * permutation * from);
+  for (const Eigen::Matrix3d& turn : spread_rotations()) {
+    add_start(to * turn * from);
+    add_start(-(to * turn * from));
+  }
+  std::ranges::stable_sort(starts, std::ranges::greater{}, &Alignment::overlap);
+  Alignment best;
+  for (std::size_t i = 0; i < std::min(kRefinedStarts, starts.size()); ++i) {
+    const Alignment refined = refine(target, source, starts[i]);
+    if (refined.overlap > best.overlap) best = refined;
   }
   return best;
 }

@@ -6,19 +6,20 @@
 #include <vector>
 
 #include "match/align.hpp"
+#include "match/paper.hpp"
 #include "match/score.hpp"
-#include "signature/tables.hpp"
 
 namespace morsel {
 namespace {
 
-// x ↦ scale · turn · (x - source centroid) + target centroid.
+// x ↦ scale · turn · (x - source centroid) + target centroid + shift.
 std::array<double, 16> transform(const Signature& target, const Signature& source,
-                                 const Eigen::Matrix3d& turn) {
+                                 const Alignment& alignment) {
+  const Eigen::Matrix3d& turn = alignment.target_from_source;
   const double scale = source.size > 0.0 ? target.size / source.size : 1.0;
   const Eigen::Vector3d to(target.centroid.x, target.centroid.y, target.centroid.z);
   const Eigen::Vector3d from(source.centroid.x, source.centroid.y, source.centroid.z);
-  const Eigen::Vector3d shift = to - scale * (turn * from);
+  const Eigen::Vector3d shift = to + target.size * alignment.shift - scale * (turn * from);
   std::array<double, 16> result{};
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) result[4 * i + k] = scale * turn(i, k);
@@ -65,24 +66,15 @@ void pair_parts(const std::vector<Blob>& target, const std::vector<Blob>& source
 
 void MatchOptions::check() const {}
 
-double table_distance(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-  double sum = 0.0;
-  for (const TableBlock& block : kTableBlocks) {
-    std::uint64_t difference = 0;
-    for (std::size_t i = block.offset; i < block.offset + block.size; ++i) {
-      difference += static_cast<std::uint64_t>(std::abs((i < a.size() ? a[i] : 0) -
-                                                        (i < b.size() ? b[i] : 0)));
-    }
-    sum += static_cast<double>(difference) / block.unit / 5.0;
-  }
-  return sum;
-}
-
-double score_of_distance(double distance) { return std::exp(-distance); }
-
 double match_score(const Signature& a, const Signature& b, const MatchOptions& options) {
   options.check();
-  return score_of_distance(table_distance(a.tables, b.tables));
+  if ((a.size > 0.0) != (b.size > 0.0)) return 0.0;
+  if (options.method == Method::kPaper) return paper_score(a, b, options.mirror).score;
+  const auto tables_a = tables_of(a);
+  const auto tables_b = tables_of(b);
+  const double score = score_of_distance(
+      table_distance(block_sums(tables_a.data(), tables_b.data()), tables_a[0], tables_b[0]));
+  return options.mirror ? score : score * same_handedness(a, b);
 }
 
 Match match(const Signature& target, const Signature& source, const MatchOptions& options) {
@@ -90,10 +82,12 @@ Match match(const Signature& target, const Signature& source, const MatchOptions
   result.score = match_score(target, source, options);
   const std::vector<Blob> to = blobs_of(target);
   const std::vector<Blob> from = blobs_of(source);
-  const Alignment alignment = align(to, from, options.mirror);
-  result.target_from_source = transform(target, source, alignment.target_from_source);
+  const Alignment alignment = options.method == Method::kPaper
+                                  ? paper_score(target, source, options.mirror).alignment
+                                  : align(to, from, options.mirror);
+  result.target_from_source = transform(target, source, alignment);
   result.mirrored = alignment.target_from_source.determinant() < 0.0;
-  pair_parts(to, turned(from, alignment.target_from_source), result);
+  pair_parts(to, moved(from, alignment), result);
   return result;
 }
 

@@ -1,17 +1,34 @@
-// The two terms of the default score.
+// The default score: a weighted L1 distance of the tables.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <morsel/signature.hpp>
-#include <span>
+
+#include "signature/tables.hpp"
 
 namespace morsel {
 
-/// Weighted L1 distance of two signatures' tables: a metric, 0 for equal ones.
-[[nodiscard]] double table_distance(std::span<const std::uint8_t> a,
-                                    std::span<const std::uint8_t> b);
+/// L1 distance of each block, or a lower bound of it.
+using BlockSums = std::array<std::uint32_t, kTableBlocks.size()>;
 
-/// The score of a distance: 1 at 0, falling towards 0.
+/// `a` and `b` hold kTableSize values.
+[[nodiscard]] BlockSums block_sums(const std::uint8_t* a, const std::uint8_t* b);
+
+/// The mean of the blocks' distances, each in units of two unrelated shapes; tables of the inside
+/// count by the product of both solidities. Never falls when a sum rises, rounding included: a
+/// lower bound of the sums gives a lower bound of the distance.
+[[nodiscard]] double table_distance(const BlockSums& sums, std::uint8_t solidity_a,
+                                    std::uint8_t solidity_b);
+
+/// The tables of a signature, zeros where it has none.
+[[nodiscard]] std::array<std::uint8_t, kTableSize> tables_of(const Signature& signature);
+
+/// 1 at 0, falling towards 0; about 0.37 for unrelated shapes.
 [[nodiscard]] double score_of_distance(double distance);
+
+/// How much of the score is left when mirror images are told apart: the best overlap of the parts
+/// without mirroring over the best with it. Symmetric; 1 for equal signatures.
+[[nodiscard]] double same_handedness(const Signature& a, const Signature& b);
 
 }  // namespace morsel

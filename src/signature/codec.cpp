@@ -9,19 +9,20 @@
 #include <string_view>
 
 #include "io/bytes.hpp"
+#include "signature/layout.hpp"
 #include "signature/tables.hpp"
 
 namespace morsel {
 namespace {
 
+constexpr std::size_t kHeadBytes = kTablesAt;
 constexpr std::string_view kMagic = "MRSL";
 constexpr std::uint16_t kVersion = 1;
-constexpr std::size_t kHeadBytes = 44;  // magic, version, length, counts, centroid, size
 constexpr std::size_t kPartBytes = 22;
 constexpr std::size_t kNeckBytes = 4;
 constexpr std::size_t kChecksumBytes = 4;
 // Pairs of parts that a signature can hold within its bytes.
-constexpr std::size_t kMostNecks = 24;
+constexpr std::size_t kMostNecks = 22;
 // Steps of a length per RMS radius, and of the square root of a covariance.
 constexpr double kLengthSteps = 2048.0;
 constexpr double kRootSteps = 8192.0;
@@ -153,7 +154,7 @@ void read_neck(Reader& reader, Signature& signature) {
 std::vector<std::byte> encode(const Signature& signature) {
   const std::vector<Neck16> necks = widest_necks(signature);
   const std::size_t length = kHeadBytes + signature.parts.size() * kPartBytes +
-                             necks.size() * kNeckBytes + signature.tables.size() + kChecksumBytes;
+                             necks.size() * kNeckBytes + kTableSize + kChecksumBytes;
   if (signature.parts.size() > kMostSignatureParts || length > kMostSignatureBytes ||
       (!signature.tables.empty() && signature.tables.size() != kTableSize)) {
     throw Error(ErrorCode::kUsage,
@@ -167,18 +168,20 @@ std::vector<std::byte> encode(const Signature& signature) {
   io::append_bytes(bytes, static_cast<std::uint16_t>(length));
   io::append_bytes(bytes, static_cast<std::uint8_t>(signature.parts.size()));
   io::append_bytes(bytes, static_cast<std::uint8_t>(necks.size()));
-  io::append_bytes(bytes, static_cast<std::uint16_t>(signature.tables.size()));
+  io::append_bytes(bytes, static_cast<std::uint16_t>(kTableSize));
   io::append_bytes(bytes, signature.centroid.x);
   io::append_bytes(bytes, signature.centroid.y);
   io::append_bytes(bytes, signature.centroid.z);
   io::append_bytes(bytes, signature.size);
+  for (std::size_t i = 0; i < kTableSize; ++i) {
+    io::append_bytes(bytes, i < signature.tables.size() ? signature.tables[i] : std::uint8_t{0});
+  }
   for (const SignaturePart& part : signature.parts) append_part(bytes, part);
   for (const Neck16& neck : necks) {
     io::append_bytes(bytes, neck.a);
     io::append_bytes(bytes, neck.b);
     io::append_bytes(bytes, neck.radius);
   }
-  for (const std::uint8_t value : signature.tables) io::append_bytes(bytes, value);
   io::append_bytes(bytes, checksum(bytes));
   std::vector<std::byte> result(bytes.size());
   std::ranges::transform(bytes, result.begin(), [](char c) { return static_cast<std::byte>(c); });
@@ -196,7 +199,7 @@ Signature decode(std::span<const std::byte> encoded, const std::string& name) {
   const std::size_t expected = kHeadBytes + part_count * kPartBytes + neck_count * kNeckBytes +
                                table_size + kChecksumBytes;
   if (expected != bytes.size() || part_count > kMostSignatureParts ||
-      (table_size != 0 && table_size != kTableSize)) {
+      table_size != kTableSize) {
     reader.fail("counts " + std::to_string(part_count) + " parts, " + std::to_string(neck_count) +
                 " necks and " + std::to_string(table_size) + " table values in " +
                 std::to_string(bytes.size()) + " bytes, which do not fit together");
@@ -207,9 +210,9 @@ Signature decode(std::span<const std::byte> encoded, const std::string& name) {
   signature.centroid.z = reader.read_finite("centroid");
   signature.size = reader.read_finite("size");
   if (signature.size < 0.0) reader.fail("has a negative size");
+  for (int i = 0; i < table_size; ++i) signature.tables.push_back(reader.read<std::uint8_t>());
   for (int i = 0; i < part_count; ++i) signature.parts.push_back(read_part(reader));
   for (int i = 0; i < neck_count; ++i) read_neck(reader, signature);
-  for (int i = 0; i < table_size; ++i) signature.tables.push_back(reader.read<std::uint8_t>());
   for (SignaturePart& part : signature.parts) {
     std::ranges::sort(part.neighbors, {}, &PartNeighbor::part);
   }

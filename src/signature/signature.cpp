@@ -54,7 +54,7 @@ std::vector<SignaturePart> heaviest_parts(const Parts& parts, const Frame& frame
 Signature make_signature(const DelaunayComplex& complex, const Basins& basins,
                          const Parts& parts, int threads) {
   Signature signature;
-  if (complex.dimension < 3) return signature;
+  if (complex.dimension < 3) return decode(encode(signature));
   const Frame frame =
       parts.parts.empty() ? frame_of_points(complex.vertices) : frame_of_parts(parts);
   signature.centroid = frame.centroid;

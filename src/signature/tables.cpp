@@ -21,8 +21,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kDegree = 4;
-constexpr std::size_t kHarmonics = harmonic_count(kDegree);
-using Coefficients = std::array<double, kHarmonics>;
+using Coefficients = Harmonics<kDegree>::Values;
 
 constexpr std::size_t kLandmarks = 320;
 constexpr std::size_t kGeodesicSources = 64;
@@ -37,16 +36,20 @@ std::uint8_t signed_root_byte(double value) {
 }
 
 void add(Coefficients& to, double weight, const Coefficients& values) {
-  for (std::size_t i = 0; i < kHarmonics; ++i) to[i] += weight * values[i];
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += weight * values[i];
 }
 
-// Direction from a centre as harmonics, and the distance.
-double look_from(const Vec3& center, const Vec3& point, Vec3& direction, Coefficients& values) {
-  const Vec3 arm = point - center;
-  const double r = norm(arm);
-  direction = r > 0.0 ? (1.0 / r) * arm : Vec3{0.0, 0.0, 1.0};
-  evaluate_harmonics(direction, kDegree, values);
-  return r;
+// A place as seen from a centre.
+struct Look {
+  double distance = 0.0;
+  Vec3 direction{0.0, 0.0, 1.0};
+  Coefficients harmonics{};
+};
+
+void look(const Harmonics<kDegree>& harmonics, const Vec3& arm, Look& to) {
+  to.distance = norm(arm);
+  to.direction = to.distance > 0.0 ? (1.0 / to.distance) * arm : Vec3{0.0, 0.0, 1.0};
+  harmonics.evaluate(to.direction, to.harmonics);
 }
 
 Bytes energies(const std::vector<Coefficients>& bins) {
@@ -54,7 +57,7 @@ Bytes energies(const std::vector<Coefficients>& bins) {
   for (const Coefficients& bin : bins) {
     for (std::size_t l = 0; l <= kDegree; ++l) {
       bytes.push_back(
-          root_byte(harmonic_energy(bin, l) / std::sqrt(2.0 * static_cast<double>(l) + 1.0)));
+          root_byte(std::sqrt(harmonic_product(bin, bin, l) / (2.0 * static_cast<double>(l) + 1.0))));
     }
   }
   return bytes;
@@ -79,66 +82,76 @@ struct Surface {
   Landmarks landmarks;
 };
 
-// Per degree, how the harmonics of the shells lie relative to each other: the root of their Gram
-// matrix. Powers alone would not notice one shell turned against the next.
-Bytes shells_table(const Surface& surface) {
-  constexpr std::size_t kShells = 6;
-  std::vector<Coefficients> shells(kShells, Coefficients{});
-  Coefficients values{};
-  Vec3 direction;
+// Sums of harmonics over the points, by shell and by thickness × facing × shell.
+struct SurfaceSums {
+  static constexpr std::size_t kShells = 6;
+  static constexpr std::size_t kBands = 4;
+  static constexpr std::size_t kAngles = 3;
+  static constexpr std::size_t kWideShells = kShells / 2;
+
+  std::vector<Coefficients> shells = std::vector<Coefficients>(kShells, Coefficients{});
+  std::vector<Coefficients> facing =
+      std::vector<Coefficients>(kBands * kAngles * kWideShells, Coefficients{});
+};
+
+SurfaceSums sum_surface(const Surface& surface, const Solid& solid) {
+  using S = SurfaceSums;
+  SurfaceSums sums;
+  const Harmonics<kDegree> harmonics;
+  Look to;
   const double share = 1.0 / static_cast<double>(surface.points.size());
-  for (const Vec3& p : surface.points) {
-    const double r = look_from(surface.frame.centroid, p, direction, values);
-    const Tent at = tent(r / (kReach * surface.frame.size), kShells);
-    for (std::size_t i = 0; i < 2; ++i) add(shells[at.bin + i], share * at.share[i], values);
-  }
-  Bytes bytes;
-  for (std::size_t l = 0; l <= kDegree; ++l) {
-    Eigen::Matrix<double, kShells, kShells> gram;
-    for (std::size_t a = 0; a < kShells; ++a) {
-      for (std::size_t b = 0; b < kShells; ++b) {
-        double sum = 0.0;
-        for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i) sum += shells[a][i] * shells[b][i];
-        gram(a, b) = sum / (2.0 * static_cast<double>(l) + 1.0);
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    look(harmonics, surface.points[i] - surface.frame.centroid, to);
+    const Vec3& normal = surface.landmarks.normal[surface.landmarks.owner[i]];
+    const Tent shell = tent(to.distance / (kReach * surface.frame.size), S::kShells);
+    const Tent angle = tent(std::abs(dot(to.direction, normal)), S::kAngles);
+    const Tent band = tent(
+        thickness_position(solid.vertex_thickness[i], surface.frame.size, 0.02), S::kBands);
+    for (std::size_t s = 0; s < 2; ++s) {
+      add(sums.shells[shell.bin + s], share * shell.share[s], to.harmonics);
+    }
+    // Shells are added up in pairs, so that both may fall into one.
+    const std::size_t near = shell.bin / 2;
+    const std::size_t far = (shell.bin + 1) / 2;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t bin =
+          ((band.bin + (k & 1U)) * S::kAngles + angle.bin + (k >> 1U)) * S::kWideShells;
+      const double weight = share * band.share[k & 1U] * angle.share[k >> 1U];
+      if (near == far) {
+        add(sums.facing[bin + near], weight, to.harmonics);
+      } else {
+        add(sums.facing[bin + near], weight * shell.share[0], to.harmonics);
+        add(sums.facing[bin + far], weight * shell.share[1], to.harmonics);
       }
     }
-    const Eigen::SelfAdjointEigenSolver<decltype(gram)> solver(gram);
-    const auto roots = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-    const Eigen::Matrix<double, kShells, kShells> root =
-        solver.eigenvectors() * roots.asDiagonal() * solver.eigenvectors().transpose();
-    for (std::size_t a = 0; a < kShells; ++a) {
-      for (std::size_t b = a; b < kShells; ++b) bytes.push_back(signed_root_byte(root(a, b)));
+  }
+  return sums;
+}
+
+// Per degree, how the harmonics of the shells lie relative to each other: the root of their Gram
+// matrix. Powers alone would not notice one shell turned against the next.
+Bytes shells_table(const std::vector<Coefficients>& shells) {
+  using Matrix = Eigen::Matrix<double, SurfaceSums::kShells, SurfaceSums::kShells>;
+  Bytes bytes;
+  for (std::size_t l = 0; l <= kDegree; ++l) {
+    Matrix gram;
+    for (std::size_t a = 0; a < SurfaceSums::kShells; ++a) {
+      for (std::size_t b = 0; b < SurfaceSums::kShells; ++b) {
+        gram(a, b) =
+            harmonic_product(shells[a], shells[b], l) / (2.0 * static_cast<double>(l) + 1.0);
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(gram);
+    const auto& axes = solver.eigenvectors();
+    const Matrix root =
+        axes * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * axes.transpose();
+    for (std::size_t a = 0; a < SurfaceSums::kShells; ++a) {
+      for (std::size_t b = a; b < SurfaceSums::kShells; ++b) {
+        bytes.push_back(signed_root_byte(root(a, b)));
+      }
     }
   }
   return bytes;
-}
-
-// Thickness below a point × how the surface faces the centre × shell × degree.
-Bytes facing_table(const Surface& surface, const Solid& solid) {
-  constexpr std::size_t kBands = 4;
-  constexpr std::size_t kAngles = 3;
-  constexpr std::size_t kFineShells = 6;  // added up in pairs
-  std::vector<Coefficients> bins(kBands * kAngles * kFineShells / 2, Coefficients{});
-  Coefficients values{};
-  Vec3 direction;
-  const double share = 1.0 / static_cast<double>(surface.points.size());
-  for (std::size_t i = 0; i < surface.points.size(); ++i) {
-    const double r = look_from(surface.frame.centroid, surface.points[i], direction, values);
-    const Vec3& normal = surface.landmarks.normal[surface.landmarks.owner[i]];
-    const Tent band = tent(
-        thickness_position(solid.vertex_thickness[i], surface.frame.size, 0.02), kBands);
-    const Tent angle = tent(std::abs(dot(direction, normal)), kAngles);
-    const Tent shell = tent(r / (kReach * surface.frame.size), kFineShells);
-    for (std::size_t k = 0; k < 8; ++k) {
-      const std::size_t t = k & 1U;
-      const std::size_t u = k >> 1U & 1U;
-      const std::size_t s = k >> 2U;
-      const std::size_t bin =
-          ((band.bin + t) * kAngles + angle.bin + u) * (kFineShells / 2) + (shell.bin + s) / 2;
-      add(bins[bin], share * band.share[t] * angle.share[u] * shell.share[s], values);
-    }
-  }
-  return energies(bins);
 }
 
 // Pairs of landmarks: distance × the angles of both normals with the line between × with each other.
@@ -160,15 +173,17 @@ Bytes pairs_table(const Surface& surface) {
       const Tent tilt_a = tent(std::abs(dot(marks.normal[a], arm)) / length, kAngles);
       const Tent tilt_b = tent(std::abs(dot(marks.normal[b], arm)) / length, kAngles);
       const Tent bend = tent(std::abs(dot(marks.normal[a], marks.normal[b])), kAngles);
-      for (std::size_t k = 0; k < 16; ++k) {
-        const std::size_t d = k & 1U;
-        const std::size_t i = k >> 1U & 1U;
-        const std::size_t j = k >> 2U & 1U;
-        const std::size_t n = k >> 3U;
+      const double weight = 2.0 * marks.weight[a] * marks.weight[b];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t i = k & 1U;
+        const std::size_t j = k >> 1U;
         const std::size_t tilt = kTilts[tilt_a.bin + i][tilt_b.bin + j];
-        bins[((at.bin + d) * 6 + tilt) * kAngles + bend.bin + n] +=
-            2.0 * marks.weight[a] * marks.weight[b] * at.share[d] * tilt_a.share[i] *
-            tilt_b.share[j] * bend.share[n];
+        const double both = weight * tilt_a.share[i] * tilt_b.share[j];
+        double* bin = &bins[(at.bin * 6 + tilt) * kAngles + bend.bin];
+        bin[0] += both * at.share[0] * bend.share[0];
+        bin[1] += both * at.share[0] * bend.share[1];
+        bin[6 * kAngles] += both * at.share[1] * bend.share[0];
+        bin[6 * kAngles + 1] += both * at.share[1] * bend.share[1];
       }
     }
   }
@@ -186,16 +201,16 @@ Bytes thickness_table(const Solid& solid) {
   constexpr std::size_t kBands = 4;
   constexpr std::size_t kShells = 6;
   std::vector<Coefficients> bins(kBands * kShells, Coefficients{});
-  Coefficients values{};
-  Vec3 direction;
+  const Harmonics<kDegree> harmonics;
+  Look to;
   const double side = std::cbrt(solid.volume);
   for (const Solid::Cell& cell : solid.cells) {
-    const double r = look_from(solid.frame.centroid, cell.centroid, direction, values);
+    look(harmonics, cell.centroid - solid.frame.centroid, to);
     const Tent band = tent(thickness_position(cell.thickness, side, kThinnestInside), kBands);
-    const Tent shell = tent(r / (kReach * solid.frame.size), kShells);
+    const Tent shell = tent(to.distance / (kReach * solid.frame.size), kShells);
     for (std::size_t k = 0; k < 4; ++k) {
       const double weight = cell.share * band.share[k & 1U] * shell.share[k >> 1U];
-      add(bins[(band.bin + (k & 1U)) * kShells + shell.bin + (k >> 1U)], weight, values);
+      add(bins[(band.bin + (k & 1U)) * kShells + shell.bin + (k >> 1U)], weight, to.harmonics);
     }
   }
   return energies(bins);
@@ -205,18 +220,18 @@ Bytes thickness_table(const Solid& solid) {
 using Roads = std::vector<std::vector<std::pair<std::uint32_t, double>>>;
 
 Roads find_roads(const DelaunayComplex& complex, const Solid& solid, const Landmarks& marks) {
-  std::vector<bool> joined(marks.count() * marks.count(), false);
+  std::vector<std::uint8_t> joined(marks.count() * marks.count(), 0);
   for (const Solid::Cell& cell : solid.cells) {
-    for (const std::uint32_t v : complex.cells[cell.cell]) {
-      for (const std::uint32_t w : complex.cells[cell.cell]) {
-        joined[marks.owner[v] * marks.count() + marks.owner[w]] = true;
-      }
+    const auto& corners = complex.cells[cell.cell];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t row = marks.owner[corners[i]] * marks.count();
+      for (std::size_t k = 0; k < 4; ++k) joined[row + marks.owner[corners[k]]] = 1;
     }
   }
   Roads roads(marks.count());
   for (std::uint32_t a = 0; a < marks.count(); ++a) {
     for (std::uint32_t b = 0; b < marks.count(); ++b) {
-      if (a == b || !joined[a * marks.count() + b]) continue;
+      if (a == b || joined[a * marks.count() + b] == 0) continue;
       roads[a].emplace_back(b, distance(marks.position[a], marks.position[b]));
     }
   }
@@ -346,8 +361,9 @@ std::vector<std::uint8_t> make_tables(const DelaunayComplex& complex, const Basi
   const bool inside = solid.volume > 0.0;
   invoke(
       [&] {
-        blocks[0] = shells_table(surface);
-        blocks[1] = facing_table(surface, solid);
+        const SurfaceSums sums = sum_surface(surface, solid);
+        blocks[0] = shells_table(sums.shells);
+        blocks[1] = energies(sums.facing);
       },
       [&] {
         blocks[2] = pairs_table(surface);

@@ -25,11 +25,11 @@ struct TableBlock {
 
 /// The first value is the solidity; then the blocks.
 inline constexpr std::array<TableBlock, 5> kTableBlocks{{
-    {"shells", 1, 105, TableSource::kSurface, 1.0},
-    {"facing", 106, 180, TableSource::kSurface, 1.0},
-    {"pairs", 286, 144, TableSource::kSurface, 1.0},
-    {"thickness", 430, 120, TableSource::kInside, 1.0},
-    {"centricity", 550, 72, TableSource::kInside, 1.0},
+    {"shells", 1, 105, TableSource::kSurface, 916.0},
+    {"facing", 106, 180, TableSource::kSurface, 2810.0},
+    {"pairs", 286, 144, TableSource::kSurface, 937.0},
+    {"thickness", 430, 120, TableSource::kInside, 2234.0},
+    {"centricity", 550, 72, TableSource::kInside, 1156.0},
 }};
 inline constexpr std::size_t kTableSize = kTableBlocks.back().offset + kTableBlocks.back().size;
 

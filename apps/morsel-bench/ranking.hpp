@@ -1,0 +1,27 @@
+// morsel-bench: how well a ranking by scores brings shapes of one class together.
+//
+// Source: P. Shilane, P. Min, M. Kazhdan, T. Funkhouser, "The Princeton Shape Benchmark", SMI 2004,
+// section 4.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace morsel::bench {
+
+/// Means over the queries whose class has another member.
+struct Retrieval {
+  double nearest = 0.0;      ///< share of best hits of the query's class
+  double first_tier = 0.0;   ///< share of the class among the C - 1 best hits
+  double second_tier = 0.0;  ///< among the 2 (C - 1) best
+  double gain = 0.0;         ///< discounted cumulative gain over that of the ideal ranking
+};
+
+/// `scores` is (n, n) row-major, queries by stored shapes; query i is not looked for as stored shape
+/// i. Higher is better, ties by index.
+[[nodiscard]] Retrieval rank(std::span<const double> scores,
+                             std::span<const std::string> categories);
+
+}  // namespace morsel::bench
