@@ -17,8 +17,8 @@ struct ClassedShape {
 
 /// The shapes of a classification file of the Princeton Shape Benchmark (.cla): models N are the
 /// files mN.* below `folder`; models without a file are passed over. By name.
-/// Source: P. Shilane, P. Min, M. Kazhdan, T. Funkhouser, "The Princeton Shape Benchmark", SMI 2004.
-/// Throws Error(kInput) naming file and line.
+/// Source: P. Shilane, P. Min, M. Kazhdan, T. Funkhouser, "The Princeton Shape Benchmark", SMI
+/// 2004. Throws Error(kInput) naming file and line.
 [[nodiscard]] std::vector<ClassedShape> read_classification(const std::filesystem::path& file,
                                                             const std::filesystem::path& folder);
 

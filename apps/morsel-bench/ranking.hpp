@@ -19,8 +19,8 @@ struct Retrieval {
   double gain = 0.0;         ///< discounted cumulative gain over that of the ideal ranking
 };
 
-/// `scores` is (n, n) row-major, queries by stored shapes; query i is not looked for as stored shape
-/// i. Higher is better, ties by index.
+/// `scores` is (n, n) row-major, queries by stored shapes; query i is not looked for as stored
+/// shape i. Higher is better, ties by index.
 [[nodiscard]] Retrieval rank(std::span<const double> scores,
                              std::span<const std::string> categories);
 

@@ -10,9 +10,9 @@ namespace {
 TEST(RankTest, CountedByHand) {
   const std::vector<std::string> categories{"a", "a", "a", "b"};
   // Query 0 sees 1, 3, 2; query 1 sees 0, 2, 3; query 2 sees 3, 0, 1; query 3 is alone.
-  const std::vector<double> scores{1.0, 0.9, 0.1, 0.5,   //
-                                   0.9, 1.0, 0.8, 0.2,   //
-                                   0.5, 0.4, 1.0, 0.9,   //
+  const std::vector<double> scores{1.0, 0.9, 0.1, 0.5,  //
+                                   0.9, 1.0, 0.8, 0.2,  //
+                                   0.5, 0.4, 1.0, 0.9,  //
                                    0.0, 0.0, 0.0, 1.0};
   const Retrieval r = rank(scores, categories);
   EXPECT_DOUBLE_EQ(r.nearest, 2.0 / 3.0);

@@ -112,10 +112,10 @@ std::vector<Scoring> methods() {
   const auto d2 = [](const Described& a, const Described& b) {
     return a.d2.size() == b.d2.size() ? -d2_distance(a.d2, b.d2) : -2.0;
   };
-  return {{"morsel", [](const Described& a, const Described& b) {
-             return match_score(a.signature, b.signature);
-           }},
-          {"paper", [](const Described& a, const Described& b) {
+  return {{"morsel", [](const Described& a,
+                        const Described& b) { return match_score(a.signature, b.signature); }},
+          {"paper",
+           [](const Described& a, const Described& b) {
              return match_score(a.signature, b.signature, {.method = Method::kPaper});
            }},
           {"paper, literally", literal},
@@ -176,10 +176,9 @@ void write_block(const RetrievalOptions& options, const std::vector<ClassedShape
 
 void run(const RetrievalOptions& options) {
   const IdFilter filter = IdFilter::parse(options.ids);
-  const std::vector<ClassedShape> shapes = options.classes.empty()
-                                               ? list_shapes(options.folder, filter)
-                                               : read_classification(options.classes,
-                                                                     options.folder);
+  const std::vector<ClassedShape> shapes =
+      options.classes.empty() ? list_shapes(options.folder, filter)
+                              : read_classification(options.classes, options.folder);
   std::vector<std::string> categories;
   for (const ClassedShape& shape : shapes) categories.push_back(shape.category);
   const std::vector<double> levels = options.noise_levels();

@@ -85,10 +85,11 @@ void run(const SearchOptions& options) {
     });
     equal += same ? 1 : 0;
   }
-  fmt::print("best {} of {}: median {:.3f} s, worst {:.3f} s of {} queries; {} of {} checked equal "
-             "the exhaustive answer\n",
-             options.hits, block.size(), median(seconds), std::ranges::max(seconds),
-             options.queries, equal, std::min(options.checked, options.queries));
+  fmt::print(
+      "best {} of {}: median {:.3f} s, worst {:.3f} s of {} queries; {} of {} checked equal "
+      "the exhaustive answer\n",
+      options.hits, block.size(), median(seconds), std::ranges::max(seconds), options.queries,
+      equal, std::min(options.checked, options.queries));
   std::filesystem::remove(options.large);
 }
 

@@ -21,9 +21,10 @@ struct MatchOptions {
 
 /// Two parts that lie on each other in the alignment.
 struct MatchedPart {
-  int target = 0;             ///< part of the target
-  int source = 0;             ///< part of the source
-  double contribution = 0.0;  ///< share of the aligned volumes' overlap that the pair makes up, 0 … 1
+  int target = 0;  ///< part of the target
+  int source = 0;  ///< part of the source
+  double contribution =
+      0.0;  ///< share of the aligned volumes' overlap that the pair makes up, 0 … 1
 };
 
 /// How the source lies on the target.

@@ -25,7 +25,8 @@ struct SignaturePart {
   Vec3 center;                         ///< representative point
   std::array<double, 6> covariance{};  ///< of the volume: xx, xy, xz, yy, yz, zz
   double ball_radius = 0.0;            ///< of the largest inner ball
-  std::vector<PartNeighbor> neighbors;  ///< ascending by part; parts that were not kept are left out
+  std::vector<PartNeighbor>
+      neighbors;  ///< ascending by part; parts that were not kept are left out
 
   friend bool operator==(const SignaturePart&, const SignaturePart&) = default;
 };

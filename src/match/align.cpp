@@ -102,8 +102,8 @@ double overlap(const std::vector<Blob>& a, const std::vector<Blob>& b) {
   double sum = 0.0;
   for (const Blob& p : a) {
     for (const Blob& q : b) {
-      const Eigen::Matrix3d spread = p.covariance + q.covariance +
-                                     2.0 * kSmoothing * kSmoothing * Eigen::Matrix3d::Identity();
+      const Eigen::Matrix3d spread =
+          p.covariance + q.covariance + 2.0 * kSmoothing * kSmoothing * Eigen::Matrix3d::Identity();
       const Eigen::Vector3d apart = p.mean - q.mean;
       const double exponent = apart.dot(spread.inverse() * apart);
       sum += p.weight * q.weight * std::exp(-0.5 * exponent) / std::sqrt(spread.determinant());

@@ -40,8 +40,8 @@ void pair_parts(const std::vector<Blob>& target, const std::vector<Blob>& source
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < target.size(); ++i) {
     for (std::size_t k = 0; k < source.size(); ++k) {
-      pairs.push_back({overlap({target[i]}, {source[k]}), static_cast<int>(i),
-                       static_cast<int>(k)});
+      pairs.push_back(
+          {overlap({target[i]}, {source[k]}), static_cast<int>(i), static_cast<int>(k)});
     }
   }
   std::ranges::stable_sort(pairs, std::ranges::greater{}, &Pair::overlap);

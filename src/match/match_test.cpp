@@ -18,7 +18,8 @@ Points beast() {
   Points points = shapes::dumbbell(5000, 0.4);
   const Points arm = shapes::box(2000, {0.6, 5.0, 0.5}, 3);
   const Points leg = shapes::box(1500, {0.5, 0.6, 4.0}, 4);
-  for (const Points& more : {shapes::moved(arm, {1.6, 0.5, -0.2}), shapes::moved(leg, {-2.3, -0.2, 0.6})}) {
+  for (const Points& more :
+       {shapes::moved(arm, {1.6, 0.5, -0.2}), shapes::moved(leg, {-2.3, -0.2, 0.6})}) {
     points = shapes::joined(points, more);
   }
   return points;
@@ -86,8 +87,9 @@ TEST_P(MatchTest, FindsThePose) {
 }
 
 TEST_P(MatchTest, MirrorImagesCanBeToldApart) {
-  const Signature image =
-      signature_of(shapes::changed(beast(), [](const Vec3& p) { return Vec3{-p.x, p.y, p.z}; }));
+  const Signature image = signature_of(shapes::changed(beast(), [](const Vec3& p) {
+    return Vec3{-p.x, p.y, p.z};
+  }));
   const MatchOptions apart{.method = GetParam(), .mirror = false};
   EXPECT_GT(match_score(beast_signature(), image, {.method = GetParam()}), 0.98);
   EXPECT_LT(match_score(beast_signature(), image, apart), 0.98);
@@ -156,8 +158,10 @@ TEST(D2Test, UnevenSamplingHardlyShows) {
   const Points even = shapes::dumbbell(8000, 0.3, 1);
   Points uneven;
   for (const Vec3& p : shapes::dumbbell(16000, 0.3, 2)) {
-    if (p.x < 0.0 || uneven.size() % 4 == 0) uneven.push_back(p);
-    else if (std::fmod(std::abs(p.y) * 1e4, 4.0) < 1.0) uneven.push_back(p);
+    if (p.x < 0.0 || uneven.size() % 4 == 0)
+      uneven.push_back(p);
+    else if (std::fmod(std::abs(p.y) * 1e4, 4.0) < 1.0)
+      uneven.push_back(p);
   }
   const auto a = d2_distribution(even, {.threads = 1});
   const auto b = d2_distribution(uneven, {.threads = 1});

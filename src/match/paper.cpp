@@ -37,8 +37,7 @@ double best_roll(const std::vector<Blob>& target, const std::vector<Blob>& sourc
       const std::complex<double> arm_q(q.mean.dot(side), q.mean.dot(up));
       const double along = (p.mean - q.mean).dot(axis);
       const double out = std::abs(arm_p) - std::abs(arm_q);
-      const double agree =
-          std::exp(-0.5 * (along * along + out * out) / (kTolerance * kTolerance));
+      const double agree = std::exp(-0.5 * (along * along + out * out) / (kTolerance * kTolerance));
       sum += p.weight * q.weight * agree * arm_p * std::conj(arm_q);
     }
   }

@@ -278,8 +278,7 @@ std::vector<Hit> SearchBlock::search(const Signature& query, std::size_t k,
   visit_ascending(candidates, enough, [&](const Candidate& candidate) {
     const std::size_t i = candidate.index;
     const std::uint8_t* other = mapping_->tables(i);
-    const double distance =
-        table_distance(block_sums(tables.data(), other), tables[0], other[0]);
+    const double distance = table_distance(block_sums(tables.data(), other), tables[0], other[0]);
     double score = score_of_distance(distance);
     if (score < best.threshold()) return;
     if ((query.size > 0.0) == mapping_->is_empty(i)) {

@@ -548,8 +548,7 @@ TEST(ContourTest, EnclosesTheInside) {
   EXPECT_TRUE(picture::trace_contours({2, 1, {-1, -1}}).empty());
 }
 
-// Two poses of one object look different on their own, the same from one side when one lies on the
-// other.
+// Seen in the pose of another, an object is not stood upright for itself.
 TEST(RenderParts, TakesThePoseOfAnother) {
   Labelled lying;
   for (const Vec3& p : shapes::box(4000, {3.0, 1.0, 1.0})) lying.add(p, 0);
@@ -560,8 +559,8 @@ TEST(RenderParts, TakesThePoseOfAnother) {
   posed.pose_of = standing;
   EXPECT_NE(render_parts(lying.points, lying.labels, posed).rgb,
             render_parts(lying.points, lying.labels, plain).rgb);
-  EXPECT_GT(render_parts(standing, lying.labels, posed).height,
-            render_parts(lying.points, lying.labels, posed).height);
+  EXPECT_NEAR(static_cast<double>(render_parts(standing, lying.labels, posed).height),
+              static_cast<double>(render_parts(standing, lying.labels, plain).height), 2.0);
 }
 
 }  // namespace

@@ -157,11 +157,11 @@ std::vector<std::byte> encode(const Signature& signature) {
                              necks.size() * kNeckBytes + kTableSize + kChecksumBytes;
   if (signature.parts.size() > kMostSignatureParts || length > kMostSignatureBytes ||
       (!signature.tables.empty() && signature.tables.size() != kTableSize)) {
-    throw Error(ErrorCode::kUsage,
-                "Signature has " + std::to_string(signature.parts.size()) + " parts and " +
-                    std::to_string(signature.tables.size()) + " table values; expected at most " +
-                    std::to_string(kMostSignatureParts) + ", and 0 or " +
-                    std::to_string(kTableSize));
+    throw Error(ErrorCode::kUsage, "Signature has " + std::to_string(signature.parts.size()) +
+                                       " parts and " + std::to_string(signature.tables.size()) +
+                                       " table values; expected at most " +
+                                       std::to_string(kMostSignatureParts) + ", and 0 or " +
+                                       std::to_string(kTableSize));
   }
   std::string bytes(kMagic);
   io::append_bytes(bytes, kVersion);
@@ -196,10 +196,9 @@ Signature decode(std::span<const std::byte> encoded, const std::string& name) {
   const auto part_count = reader.read<std::uint8_t>();
   const auto neck_count = reader.read<std::uint8_t>();
   const auto table_size = reader.read<std::uint16_t>();
-  const std::size_t expected = kHeadBytes + part_count * kPartBytes + neck_count * kNeckBytes +
-                               table_size + kChecksumBytes;
-  if (expected != bytes.size() || part_count > kMostSignatureParts ||
-      table_size != kTableSize) {
+  const std::size_t expected =
+      kHeadBytes + part_count * kPartBytes + neck_count * kNeckBytes + table_size + kChecksumBytes;
+  if (expected != bytes.size() || part_count > kMostSignatureParts || table_size != kTableSize) {
     reader.fail("counts " + std::to_string(part_count) + " parts, " + std::to_string(neck_count) +
                 " necks and " + std::to_string(table_size) + " table values in " +
                 std::to_string(bytes.size()) + " bytes, which do not fit together");

@@ -25,10 +25,9 @@ class Harmonics {
         const auto dl = static_cast<double>(l);
         const double before = dl - 1.0;
         rise_[m][l] = std::sqrt((4.0 * dl * dl - 1.0) / (dl * dl - dm * dm));
-        fall_[m][l] =
-            l == m + 1
-                ? 0.0
-                : std::sqrt((before * before - dm * dm) / (4.0 * before * before - 1.0));
+        fall_[m][l] = l == m + 1
+                          ? 0.0
+                          : std::sqrt((before * before - dm * dm) / (4.0 * before * before - 1.0));
       }
     }
   }

@@ -21,8 +21,8 @@ TEST(HarmonicsTest, AdditionTheorem) {
     harmonics.evaluate(u, a);
     harmonics.evaluate(v, b);
     for (std::size_t l = 0; l <= kDegree; ++l) {
-      const double expected = (2.0 * static_cast<double>(l) + 1.0) *
-                              std::legendre(static_cast<unsigned>(l), dot(u, v));
+      const double expected =
+          (2.0 * static_cast<double>(l) + 1.0) * std::legendre(static_cast<unsigned>(l), dot(u, v));
       EXPECT_NEAR(harmonic_product(a, b, l), expected, 1e-12);
     }
   }

@@ -75,7 +75,7 @@ class FarthestFirst {
   std::span<const Vec3> points_;
   std::vector<Vec3> seeds_;
   std::vector<std::vector<std::uint32_t>> members_;
-  std::vector<double> squared_;           // of each point to its landmark
+  std::vector<double> squared_;          // of each point to its landmark
   std::vector<std::uint32_t> farthest_;  // point of each landmark
 };
 
@@ -111,8 +111,7 @@ Landmarks find_landmarks(std::span<const Vec3> points, const Vec3& center, std::
   for (std::size_t k = 0; k < members.size(); ++k) {
     for (const std::uint32_t i : members[k]) result.owner[i] = static_cast<std::uint32_t>(k);
     fit_plane(points, members[k], result.position[k], result.normal[k]);
-    result.weight[k] =
-        static_cast<double>(members[k].size()) / static_cast<double>(points.size());
+    result.weight[k] = static_cast<double>(members[k].size()) / static_cast<double>(points.size());
   }
   return result;
 }

@@ -45,7 +45,8 @@ TEST(LandmarksTest, EqualThePlainRule) {
 TEST(LandmarksTest, NormalsOfASphere) {
   const Landmarks marks = find_landmarks(shapes::even_sphere(20000), {}, 200);
   for (std::size_t k = 0; k < marks.count(); ++k) {
-    const double facing = std::abs(dot(marks.normal[k], marks.position[k])) / norm(marks.position[k]);
+    const double facing =
+        std::abs(dot(marks.normal[k], marks.position[k])) / norm(marks.position[k]);
     EXPECT_GT(facing, 0.99);
   }
 }

@@ -51,8 +51,8 @@ std::vector<SignaturePart> heaviest_parts(const Parts& parts, const Frame& frame
 
 }  // namespace
 
-Signature make_signature(const DelaunayComplex& complex, const Basins& basins,
-                         const Parts& parts, int threads) {
+Signature make_signature(const DelaunayComplex& complex, const Basins& basins, const Parts& parts,
+                         int threads) {
   Signature signature;
   if (complex.dimension < 3) return decode(encode(signature));
   const Frame frame =

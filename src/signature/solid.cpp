@@ -20,7 +20,8 @@ std::vector<double> largest_balls(const DelaunayComplex& complex, const Basins& 
 
 Frame frame_of_cells(const std::vector<Solid::Cell>& cells) {
   Frame frame;
-  for (const Solid::Cell& cell : cells) frame.centroid = frame.centroid + cell.share * cell.centroid;
+  for (const Solid::Cell& cell : cells)
+    frame.centroid = frame.centroid + cell.share * cell.centroid;
   double spread = 0.0;
   for (const Solid::Cell& cell : cells) {
     spread += cell.share * squared_distance(cell.centroid, frame.centroid);

@@ -56,8 +56,8 @@ Bytes energies(const std::vector<Coefficients>& bins) {
   Bytes bytes;
   for (const Coefficients& bin : bins) {
     for (std::size_t l = 0; l <= kDegree; ++l) {
-      bytes.push_back(
-          root_byte(std::sqrt(harmonic_product(bin, bin, l) / (2.0 * static_cast<double>(l) + 1.0))));
+      bytes.push_back(root_byte(
+          std::sqrt(harmonic_product(bin, bin, l) / (2.0 * static_cast<double>(l) + 1.0))));
     }
   }
   return bytes;
@@ -105,8 +105,8 @@ SurfaceSums sum_surface(const Surface& surface, const Solid& solid) {
     const Vec3& normal = surface.landmarks.normal[surface.landmarks.owner[i]];
     const Tent shell = tent(to.distance / (kReach * surface.frame.size), S::kShells);
     const Tent angle = tent(std::abs(dot(to.direction, normal)), S::kAngles);
-    const Tent band = tent(
-        thickness_position(solid.vertex_thickness[i], surface.frame.size, 0.02), S::kBands);
+    const Tent band =
+        tent(thickness_position(solid.vertex_thickness[i], surface.frame.size, 0.02), S::kBands);
     for (std::size_t s = 0; s < 2; ++s) {
       add(sums.shells[shell.bin + s], share * shell.share[s], to.harmonics);
     }
@@ -154,9 +154,9 @@ Bytes shells_table(const std::vector<Coefficients>& shells) {
   return bytes;
 }
 
-// Pairs of landmarks: distance × the angles of both normals with the line between × with each other.
-// Source: E. Wahl, U. Hillenbrand, G. Hirzinger, "Surflet-Pair-Relation Histograms", 3DIM 2003.
-// Differs: normals have no sign; landmarks instead of random pairs.
+// Pairs of landmarks: distance × the angles of both normals with the line between × with each
+// other. Source: E. Wahl, U. Hillenbrand, G. Hirzinger, "Surflet-Pair-Relation Histograms", 3DIM
+// 2003. Differs: normals have no sign; landmarks instead of random pairs.
 Bytes pairs_table(const Surface& surface) {
   constexpr std::size_t kDistances = 8;
   constexpr std::size_t kAngles = 3;
@@ -238,7 +238,8 @@ Roads find_roads(const DelaunayComplex& complex, const Solid& solid, const Landm
   return roads;
 }
 
-// Shortest ways from one landmark to all others (E. W. Dijkstra 1959); infinite where there is none.
+// Shortest ways from one landmark to all others (E. W. Dijkstra 1959); infinite where there is
+// none.
 std::vector<double> shortest_ways(const Roads& roads, std::uint32_t from) {
   std::vector<double> length(roads.size(), std::numeric_limits<double>::infinity());
   using Step = std::pair<double, std::uint32_t>;
@@ -315,8 +316,7 @@ std::vector<double> find_centricity(const DelaunayComplex& complex, const Solid&
 }
 
 // Thickness × centricity, by volume.
-Bytes centricity_table(const DelaunayComplex& complex, const Surface& surface,
-                       const Solid& solid) {
+Bytes centricity_table(const DelaunayComplex& complex, const Surface& surface, const Solid& solid) {
   constexpr std::size_t kBands = 12;
   constexpr std::size_t kFineRings = 12;  // added up in pairs
   std::vector<double> bins(kBands * kFineRings / 2, 0.0);
@@ -342,8 +342,8 @@ Bytes centricity_table(const DelaunayComplex& complex, const Surface& surface,
 std::vector<std::uint8_t> make_tables(const DelaunayComplex& complex, const Basins& basins,
                                       int threads) {
   Solid solid;
-  Surface surface{.points = complex.vertices, .frame = frame_of_points(complex.vertices),
-                  .landmarks = {}};
+  Surface surface{
+      .points = complex.vertices, .frame = frame_of_points(complex.vertices), .landmarks = {}};
   std::array<Bytes, kTableBlocks.size()> blocks;
   const auto invoke = [threads](const auto& a, const auto& b) {
     if (resolve_threads(threads) == 1) {
@@ -355,8 +355,7 @@ std::vector<std::uint8_t> make_tables(const DelaunayComplex& complex, const Basi
   };
   invoke([&] { solid = find_solid(complex, basins); },
          [&] {
-           surface.landmarks =
-               find_landmarks(complex.vertices, surface.frame.centroid, kLandmarks);
+           surface.landmarks = find_landmarks(complex.vertices, surface.frame.centroid, kLandmarks);
          });
   const bool inside = solid.volume > 0.0;
   invoke(

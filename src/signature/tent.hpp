@@ -9,7 +9,7 @@
 namespace morsel {
 
 struct Tent {
-  std::size_t bin = 0;           ///< the lower one
+  std::size_t bin = 0;            ///< the lower one
   std::array<double, 2> share{};  ///< of this bin and the next
 };
 
