@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import pty
 import re
 import shutil
 import signal
@@ -57,6 +58,21 @@ class CliTest(unittest.TestCase):
         self.assertRegex(message, pattern)
         self.assertEqual(done.stdout, b"")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
+
+    def run_on_terminal(self, start):
+        """Runs what start(terminal) starts to success and returns what the terminal was sent."""
+        outer, inner = pty.openpty()
+        process = start(inner)
+        os.close(inner)
+        shown = b""
+        try:
+            while chunk := os.read(outer, 4096):
+                shown += chunk
+        except OSError:  # the end of a terminal on Linux
+            pass
+        os.close(outer)
+        self.assertEqual(process.wait(timeout=60), DONE)
+        return shown
 
     def labels(self, name="labels.txt"):
         return [int(line) for line in (self.folder / name).read_text().splitlines()]

@@ -445,17 +445,7 @@ class Interrupts(CliTest):
         process.stdin.close()
 
     def test_bar_on_a_terminal_only(self):
-        outer, inner = pty.openpty()
-        process = self.start(self.dumbbell(), stderr=inner)
-        os.close(inner)
-        shown = b""
-        try:
-            while chunk := os.read(outer, 4096):
-                shown += chunk
-        except OSError:  # the end of a terminal on Linux
-            pass
-        os.close(outer)
-        self.assertEqual(process.wait(timeout=60), DONE)
+        shown = self.run_on_terminal(lambda terminal: self.start(self.dumbbell(), stderr=terminal))
         self.assertRegex(shown.decode(), r"\r\[[#.]{30}\] +\d+% \w+")
         self.assertTrue(shown.endswith(b"\r\x1b[K"), shown[-40:])
 

@@ -5,9 +5,7 @@ import contextlib
 import csv
 import json
 import math
-import os
 import pathlib
-import pty
 import random
 import re
 import shutil
@@ -276,17 +274,8 @@ class Interrupts(DatabaseTest):
 
     def test_bar_with_rate_on_a_terminal_only(self):
         self.many(3)
-        outer, inner = pty.openpty()
-        process = self.start("models", stdout=subprocess.DEVNULL, stderr=inner)
-        os.close(inner)
-        shown = b""
-        try:
-            while chunk := os.read(outer, 4096):
-                shown += chunk
-        except OSError:  # the end of a terminal on Linux
-            pass
-        os.close(outer)
-        self.assertEqual(process.wait(timeout=60), DONE)
+        shown = self.run_on_terminal(
+            lambda terminal: self.start("models", stdout=subprocess.DEVNULL, stderr=terminal))
         self.assertRegex(shown.decode(), r"\r\[[#.]{30}\] +\d+% \d of 3, [\d.]+/s, \d+:\d\d left")
         self.assertTrue(shown.endswith(b"\r\x1b[K"), shown[-40:])
 
