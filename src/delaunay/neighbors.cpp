@@ -8,23 +8,63 @@
 namespace morsel {
 namespace {
 
+constexpr std::uint32_t kNoVertex = 0xffffffffU;
+
 // The nearest vertices found so far, nearest first; ties go to the smaller index.
 struct Nearest {
   struct Entry {
     double squared = std::numeric_limits<double>::infinity();
-    std::uint32_t vertex = 0xffffffffU;
-    friend auto operator<=>(const Entry&, const Entry&) = default;
+    std::uint32_t vertex = kNoVertex;
+
+    friend bool operator<(const Entry& x, const Entry& y) {
+      return x.squared != y.squared ? x.squared < y.squared : x.vertex < y.vertex;
+    }
   };
   std::array<Entry, 3> entries;
 
-  void offer(double squared, std::uint32_t vertex) {
-    const Entry entry{squared, vertex};
+  // Each vertex at most once.
+  void offer(const Entry& entry) {
     if (!(entry < entries[2])) return;
-    if (vertex == entries[0].vertex || vertex == entries[1].vertex) return;
     entries[2] = entry;
     if (entries[2] < entries[1]) std::swap(entries[2], entries[1]);
     if (entries[1] < entries[0]) std::swap(entries[1], entries[0]);
   }
+};
+
+// Searches around one vertex after another.
+class NearestSearch {
+ public:
+  NearestSearch(const DelaunayComplex& complex, const VertexCells& vertex_cells)
+      : complex_(complex),
+        vertex_cells_(vertex_cells),
+        seen_from_(complex.vertices.size(), kNoVertex) {}
+
+  Nearest search(std::uint32_t p) {
+    Nearest nearest;
+    seen_from_[p] = p;
+    offer_star(p, p, nearest);
+    // entries[0] is final after the own star, entries[1] after the star of entries[0], …
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::uint32_t vertex = nearest.entries[k].vertex;
+      if (vertex != kNoVertex) offer_star(p, vertex, nearest);
+    }
+    return nearest;
+  }
+
+ private:
+  void offer_star(std::uint32_t of, std::uint32_t center, Nearest& nearest) {
+    for (const std::uint32_t c : vertex_cells_.of(center)) {
+      for (const std::uint32_t v : complex_.cells[c]) {
+        if (seen_from_[v] == of) continue;
+        seen_from_[v] = of;
+        nearest.offer({squared_distance(complex_.vertices[of], complex_.vertices[v]), v});
+      }
+    }
+  }
+
+  const DelaunayComplex& complex_;
+  const VertexCells& vertex_cells_;
+  std::vector<std::uint32_t> seen_from_;  // the last vertex for which each one was looked at
 };
 
 }  // namespace
@@ -65,28 +105,13 @@ VertexCells find_vertex_cells(const DelaunayComplex& complex) {
 std::vector<double> mean_neighbor_distance(const DelaunayComplex& complex,
                                            const VertexCells& vertex_cells, int threads) {
   std::vector<double> lambda(complex.vertices.size(), 0.0);
-  const auto offer_star = [&](std::uint32_t of, std::uint32_t center, Nearest& nearest) {
-    for (const std::uint32_t c : vertex_cells.of(center)) {
-      for (const std::uint32_t v : complex.cells[c]) {
-        if (v != of) nearest.offer(squared_distance(complex.vertices[of], complex.vertices[v]), v);
-      }
-    }
-  };
   parallel_ranges(lambda.size(), threads, [&](std::size_t begin, std::size_t end) {
+    NearestSearch around(complex, vertex_cells);
     for (std::size_t i = begin; i < end; ++i) {
-      const auto p = static_cast<std::uint32_t>(i);
-      Nearest nearest;
-      offer_star(p, p, nearest);
-      // entries[0] is final after the own star, entries[1] after the star of entries[0], …
-      for (int k = 0; k < 2; ++k) {
-        if (nearest.entries[k].vertex != 0xffffffffU) {
-          offer_star(p, nearest.entries[k].vertex, nearest);
-        }
-      }
       double sum = 0.0;
       int count = 0;
-      for (const auto& entry : nearest.entries) {
-        if (entry.vertex == 0xffffffffU) break;
+      for (const auto& entry : around.search(static_cast<std::uint32_t>(i)).entries) {
+        if (entry.vertex == kNoVertex) break;
         sum += std::sqrt(entry.squared);
         ++count;
       }

@@ -30,7 +30,7 @@ class Agglomeration {
         log_thickness_(count_),
         seen_(count_ * count_),
         weight_(count_ * count_),
-        ratio_(count_) {
+        contacts_(count_) {
     for (std::size_t i = 0; i < count_; ++i) {
       points_[i] = std::max(points_[i], 1.0);
       log_thickness_[i] = std::log(graph.thickness[i]);
@@ -45,8 +45,9 @@ class Agglomeration {
     }
     for (const Neck& contact : graph.contacts) {
       const double ratio = std::min(contact.radius, kMostRatio);
-      ratio_[contact.a][contact.b] = ratio_[contact.b][contact.a] = ratio;
+      contacts_[contact.a][contact.b] = contacts_[contact.b][contact.a] = {ratio, 0.0};
     }
+    for (std::uint32_t a = 0; a < count_; ++a) price_contacts(a);
   }
 
   std::vector<Merge> run() {
@@ -63,6 +64,10 @@ class Agglomeration {
   }
 
  private:
+  struct Contact {
+    double ratio = 1.0;
+    double cost = 0.0;
+  };
   struct Candidate {
     double cost = std::numeric_limits<double>::infinity();
     std::uint32_t a = 0;
@@ -79,13 +84,20 @@ class Agglomeration {
            std::pow(20.0 * share, kSizePower);
   }
 
+  // What joining a with each group beside it costs; only the other one of a pair's two entries,
+  // that of the larger number, is read.
+  void price_contacts(std::uint32_t a) {
+    for (const auto& [b, contact] : contacts_[a]) {
+      contacts_[std::max(a, b)].at(std::min(a, b)).cost = cost(a, b, contact.ratio);
+    }
+  }
+
   [[nodiscard]] Candidate cheapest() const {
     Candidate best;
     for (std::uint32_t a = 0; a < count_; ++a) {
-      for (const auto& [b, ratio] : ratio_[a]) {
+      for (const auto& [b, contact] : contacts_[a]) {
         if (b >= a) break;
-        const double c = cost(a, b, ratio);
-        if (c < best.cost) best = {c, a, b};
+        if (contact.cost < best.cost) best = {contact.cost, a, b};
       }
     }
     return best;
@@ -102,14 +114,15 @@ class Agglomeration {
     log_thickness_[a] = (points_[a] * log_thickness_[a] + points_[b] * log_thickness_[b]) / sum;
     points_[a] = sum;
     alive_[b] = false;
-    for (const auto& [k, ratio] : ratio_[b]) {
-      ratio_[k].erase(b);
+    for (const auto& [k, contact] : contacts_[b]) {
+      contacts_[k].erase(b);
       if (k == a) continue;
-      const auto [held, fresh] = ratio_[a].try_emplace(k, ratio);
-      if (!fresh) held->second = std::min(held->second, ratio);
-      ratio_[k][a] = held->second;
+      const auto [held, fresh] = contacts_[a].try_emplace(k, contact);
+      if (!fresh) held->second.ratio = std::min(held->second.ratio, contact.ratio);
+      contacts_[k][a] = held->second;
     }
-    ratio_[b].clear();
+    contacts_[b].clear();
+    price_contacts(a);
   }
 
   std::size_t count_;
@@ -117,9 +130,9 @@ class Agglomeration {
   std::vector<double> points_;
   std::vector<double> object_points_;
   std::vector<double> log_thickness_;
-  std::vector<double> seen_;                            // sums over pairs of pieces, (p, p)
-  std::vector<double> weight_;                          // (p, p)
-  std::vector<std::map<std::uint32_t, double>> ratio_;  // of touching groups
+  std::vector<double> seen_;                                // sums over pairs of pieces, (p, p)
+  std::vector<double> weight_;                              // (p, p)
+  std::vector<std::map<std::uint32_t, Contact>> contacts_;  // of each group, to those it touches
 };
 
 }  // namespace

@@ -291,8 +291,8 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
                                         : std::accumulate(lambda.begin(), lambda.end(), 0.0) /
                                               static_cast<double>(lambda.size());
   const BasinGroups groups = group_basins(complex, vertex_cells, basins, spacing);
-  const Pieces pieces =
-      split_regions(complex, basins, groups.region_of_basin, groups.object_of_basin, spacing);
+  const Pieces pieces = split_regions(complex, basins, groups.region_of_basin,
+                                      groups.object_of_basin, spacing, threads);
   MergeTree tree;
   tree.natural_ratio = natural_merge_ratio();
   tree.necks = find_necks(complex, pieces.piece_of_cell);

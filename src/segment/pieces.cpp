@@ -1,10 +1,12 @@
 #include "segment/pieces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <queue>
 #include <utility>
+
+#include "base/threads.hpp"
 
 namespace morsel {
 namespace {
@@ -14,191 +16,212 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPieceRadius = 0.17;
 constexpr std::size_t kMostPieces = 400;
 
-using Entry = std::pair<double, std::uint32_t>;
+// The inner cells by themselves, numbered as in the complex, with their neighbours of the same
+// region: much smaller than the complex, and walked through again and again.
+struct Inside {
+  std::vector<std::uint32_t> cells;                     // (k) of the complex
+  std::vector<Vec3> centroids;                          // (k)
+  std::vector<std::array<std::uint32_t, 4>> neighbors;  // (k, 4) or kNoCell
+};
 
-// Grows Voronoi regions of seeds through the cells of one region. The distance of a cell is how far
-// the way from the seed must stray from it: the lengths of paths from cell to cell would depend on
-// the sampling, as they zigzag the more, the longer and thinner the cells are.
-class SeedField {
- public:
-  SeedField(const DelaunayComplex& complex, const std::vector<std::uint32_t>& region_of_cell)
-      : complex_(complex),
-        region_of_cell_(region_of_cell),
-        distance_(complex.cell_count(), kInfinity) {
-    centroids_.reserve(complex.cell_count());
-    for (std::size_t c = 0; c < complex.cell_count(); ++c) {
-      centroids_.push_back(cell_centroid(complex, c));
-    }
+Inside find_inside(const DelaunayComplex& complex, const Basins& basins,
+                   const std::vector<std::uint32_t>& region_of_basin, int threads) {
+  Inside inside;
+  std::vector<std::uint32_t> place(complex.cell_count(), kNoCell);
+  for (std::uint32_t c = 0; c < place.size(); ++c) {
+    if (basins.basin_of_cell[c] == kNoBasin) continue;
+    place[c] = static_cast<std::uint32_t>(inside.cells.size());
+    inside.cells.push_back(c);
   }
-
-  [[nodiscard]] double distance_to_seed(std::uint32_t cell) const { return distance_[cell]; }
-
-  // Calls claim(cell) for every cell that is now nearer to `seed` than to any seed before.
-  template <typename Claim>
-  void add(std::uint32_t seed, const Claim& claim) {
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    const Vec3 center = centroids_[seed];
-    distance_[seed] = 0.0;
-    claim(seed);
-    queue.emplace(0.0, seed);
-    while (!queue.empty()) {
-      const auto [reached, c] = queue.top();
-      queue.pop();
-      if (reached > distance_[c]) continue;
-      for (const std::uint32_t d : complex_.neighbors[c]) {
-        if (d == kNoCell || region_of_cell_[d] != region_of_cell_[seed]) continue;
-        const double next = std::max(reached, distance(center, centroids_[d]));
-        if (next >= distance_[d]) continue;
-        distance_[d] = next;
-        claim(d);
-        queue.emplace(next, d);
+  const auto region = [&](std::uint32_t c) { return region_of_basin[basins.basin_of_cell[c]]; };
+  inside.centroids.resize(inside.cells.size());
+  inside.neighbors.resize(inside.cells.size());
+  parallel_ranges(inside.cells.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t c = inside.cells[i];
+      inside.centroids[i] = cell_centroid(complex, c);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t d = complex.neighbors[c][k];
+        const bool beside = d != kNoCell && place[d] != kNoCell && region(d) == region(c);
+        inside.neighbors[i][k] = beside ? place[d] : kNoCell;
       }
     }
-  }
-
- private:
-  const DelaunayComplex& complex_;
-  const std::vector<std::uint32_t>& region_of_cell_;
-  std::vector<Vec3> centroids_;
-  std::vector<double> distance_;
-};
+  });
+  return inside;
+}
 
 // Root mean square distance of each object's cells from their centroid, weighted by cell: cells
 // crowd where the surface is, so this measures the surface rather than the volume.
-std::vector<double> object_extents(const DelaunayComplex& complex, const Basins& basins,
+std::vector<double> object_extents(const Inside& inside, const Basins& basins,
                                    const std::vector<std::uint32_t>& object_of_basin) {
   std::vector<double> count(basins.count(), 0.0);
   std::vector<Vec3> mean(basins.count());
   std::vector<double> squares(basins.count(), 0.0);
-  const auto each_cell = [&](const auto& visit) {
-    for (std::uint32_t c = 0; c < complex.cell_count(); ++c) {
-      const std::uint32_t b = basins.basin_of_cell[c];
-      if (b != kNoBasin) visit(object_of_basin[b], cell_centroid(complex, c));
-    }
+  const auto object_of = [&](std::size_t i) {
+    return object_of_basin[basins.basin_of_cell[inside.cells[i]]];
   };
-  each_cell([&](std::uint32_t object, const Vec3& p) {
-    count[object] += 1.0;
-    mean[object] = mean[object] + p;
-  });
+  for (std::size_t i = 0; i < inside.cells.size(); ++i) {
+    count[object_of(i)] += 1.0;
+    mean[object_of(i)] = mean[object_of(i)] + inside.centroids[i];
+  }
   for (std::size_t i = 0; i < count.size(); ++i) {
     if (count[i] > 0.0) mean[i] = (1.0 / count[i]) * mean[i];
   }
-  each_cell([&](std::uint32_t object, const Vec3& p) {
-    squares[object] += squared_distance(p, mean[object]);
-  });
+  for (std::size_t i = 0; i < inside.cells.size(); ++i) {
+    squares[object_of(i)] += squared_distance(inside.centroids[i], mean[object_of(i)]);
+  }
   for (std::size_t i = 0; i < count.size(); ++i) {
     squares[i] = count[i] > 0.0 ? std::sqrt(squares[i] / count[i]) : 0.0;
   }
   return squares;
 }
 
-std::vector<std::uint32_t> regions_of_cells(const DelaunayComplex& complex, const Basins& basins,
-                                            const std::vector<std::uint32_t>& region_of_basin) {
-  std::vector<std::uint32_t> regions(complex.cell_count(), kNoBasin);
-  for (std::uint32_t c = 0; c < regions.size(); ++c) {
-    const std::uint32_t b = basins.basin_of_cell[c];
-    if (b != kNoBasin) regions[c] = region_of_basin[b];
-  }
-  return regions;
-}
-
-// Chooses seeds farthest first and keeps the book of what they become.
-class Splitter {
+// Voronoi regions of seeds inside one region each. The distance of a cell is how far the way from
+// the seed must stray from it: the lengths of paths from cell to cell would depend on the sampling,
+// as they zigzag the more, the longer and thinner the cells are.
+class Growth {
  public:
-  Splitter(const DelaunayComplex& complex, const Basins& basins,
-           const std::vector<std::uint32_t>& region_of_basin,
-           const std::vector<std::uint32_t>& object_of_basin)
-      : complex_(complex),
-        basins_(basins),
-        region_of_basin_(region_of_basin),
-        object_of_basin_(object_of_basin),
-        extents_(object_extents(complex, basins, object_of_basin)),
-        region_of_cell_(regions_of_cells(complex, basins, region_of_basin)),
-        field_(complex, region_of_cell_) {
-    pieces_.piece_of_cell.assign(complex.cell_count(), kNoBasin);
+  // `may_seed[i]` says which cells can become a seed.
+  Growth(const Inside& inside, std::vector<bool> may_seed)
+      : inside_(inside),
+        may_seed_(std::move(may_seed)),
+        squared_(inside.cells.size(), kInfinity),
+        piece_(inside.cells.size(), kNoBasin) {}
+
+  [[nodiscard]] const std::vector<std::uint32_t>& piece_of_cell() const { return piece_; }
+
+  // The cell farthest from the piece's seed that can become one, or kNoCell.
+  [[nodiscard]] std::uint32_t farthest(std::size_t piece) const { return farthest_[piece]; }
+
+  [[nodiscard]] double distance_to_seed(std::uint32_t cell) const {
+    return std::sqrt(squared_[cell]);
   }
 
-  // One piece around the largest ball of every region; basins come by decreasing radius.
-  void seed_regions() {
-    first_piece_.assign(basins_.count(), kNoBasin);
-    for (std::uint32_t b = 0; b < basins_.count(); ++b) {
-      std::uint32_t& first = first_piece_[region_of_basin_[b]];
-      if (first != kNoBasin) continue;
-      first = static_cast<std::uint32_t>(pieces_.count());
-      add_piece(basins_.maximum[b]);
+  // A new piece takes every cell that is nearer to its seed than to any before.
+  void add(std::uint32_t seed) {
+    const auto piece = static_cast<std::uint32_t>(members_.size());
+    members_.push_back(grow(seed, piece));
+    farthest_.push_back(kNoCell);
+    find_farthest(piece);
+    for (std::uint32_t k = 0; k < piece; ++k) {
+      if (farthest_[k] != kNoCell && piece_[farthest_[k]] != k) find_farthest(k);
     }
-  }
-
-  // A piece around the cell farthest from all seeds, again and again. Distances only shrink, so an
-  // entry of the queue that still holds is the farthest. Cells along the surface, with balls no
-  // larger than the spacing, are no seeds.
-  void add_farthest(double spacing) {
-    std::priority_queue<Entry> farthest;
-    for (std::uint32_t c = 0; c < region_of_cell_.size(); ++c) {
-      if (region_of_cell_[c] == kNoBasin || complex_.radii[c] <= 1.2 * spacing) continue;
-      const double apart = relative_distance(c);
-      if (apart > kPieceRadius && apart < kInfinity) farthest.emplace(apart, c);
-    }
-    while (!farthest.empty() && pieces_.count() < kMostPieces) {
-      const auto [apart, c] = farthest.top();
-      farthest.pop();
-      const double now = relative_distance(c);
-      if (now <= kPieceRadius) continue;
-      if (now < apart) {
-        farthest.emplace(now, c);
-      } else {
-        add_piece(c);
-      }
-    }
-  }
-
-  // Cells that no path through their region reaches stay with their region's first piece.
-  Pieces finish() {
-    for (std::uint32_t c = 0; c < region_of_cell_.size(); ++c) {
-      if (region_of_cell_[c] != kNoBasin && pieces_.piece_of_cell[c] == kNoBasin) {
-        pieces_.piece_of_cell[c] = first_piece_[region_of_cell_[c]];
-      }
-    }
-    return std::move(pieces_);
   }
 
  private:
-  [[nodiscard]] double extent_of(std::uint32_t cell) const {
-    return extents_[object_of_basin_[basins_.basin_of_cell[cell]]];
+  // Cells are visited again when a way that strays less is found to them, which is rare; in the
+  // end each holds the least, in whatever order they were visited.
+  std::vector<std::uint32_t> grow(std::uint32_t seed, std::uint32_t piece) {
+    const Vec3 center = inside_.centroids[seed];
+    std::vector<std::uint32_t> taken{seed};
+    std::vector<std::uint32_t> open{seed};
+    squared_[seed] = 0.0;
+    piece_[seed] = piece;
+    for (std::size_t next = 0; next < open.size(); ++next) {
+      const std::uint32_t c = open[next];
+      for (const std::uint32_t d : inside_.neighbors[c]) {
+        if (d == kNoCell) continue;
+        const double squared =
+            std::max(squared_[c], squared_distance(center, inside_.centroids[d]));
+        if (squared >= squared_[d]) continue;
+        squared_[d] = squared;
+        open.push_back(d);
+        if (piece_[d] != piece) taken.push_back(d);
+        piece_[d] = piece;
+      }
+    }
+    return taken;
   }
 
-  [[nodiscard]] double relative_distance(std::uint32_t cell) const {
-    return field_.distance_to_seed(cell) / extent_of(cell);
+  // Forgets the members that the piece has lost.
+  void find_farthest(std::uint32_t piece) {
+    std::vector<std::uint32_t>& members = members_[piece];
+    std::erase_if(members, [&](std::uint32_t c) { return piece_[c] != piece; });
+    std::uint32_t best = kNoCell;
+    for (const std::uint32_t c : members) {
+      if (!may_seed_[c]) continue;
+      if (best == kNoCell || squared_[c] > squared_[best] ||
+          (squared_[c] == squared_[best] && c > best)) {
+        best = c;
+      }
+    }
+    farthest_[piece] = best;
   }
 
-  void add_piece(std::uint32_t seed) {
-    const auto piece = static_cast<std::uint32_t>(pieces_.count());
-    pieces_.region.push_back(region_of_cell_[seed]);
-    pieces_.extent.push_back(extent_of(seed));
-    pieces_.seed.push_back(seed);
-    field_.add(seed, [&](std::uint32_t c) { pieces_.piece_of_cell[c] = piece; });
-  }
-
-  const DelaunayComplex& complex_;
-  const Basins& basins_;
-  const std::vector<std::uint32_t>& region_of_basin_;
-  const std::vector<std::uint32_t>& object_of_basin_;
-  std::vector<double> extents_;
-  std::vector<std::uint32_t> region_of_cell_;
-  SeedField field_;
-  std::vector<std::uint32_t> first_piece_;
-  Pieces pieces_;
+  const Inside& inside_;
+  std::vector<bool> may_seed_;
+  std::vector<double> squared_;  // of the distance to the own piece's seed
+  std::vector<std::uint32_t> piece_;
+  std::vector<std::vector<std::uint32_t>> members_;  // of each piece, and some that it has lost
+  std::vector<std::uint32_t> farthest_;
 };
+
+// One seed around the largest ball of every region; basins come by decreasing radius.
+std::vector<std::uint32_t> region_seeds(const Basins& basins,
+                                        const std::vector<std::uint32_t>& region_of_basin) {
+  std::vector<std::uint32_t> seeds;
+  std::vector<bool> seen(basins.count(), false);
+  for (std::uint32_t b = 0; b < basins.count(); ++b) {
+    if (!seen[region_of_basin[b]]) seeds.push_back(basins.maximum[b]);
+    seen[region_of_basin[b]] = true;
+  }
+  return seeds;
+}
 
 }  // namespace
 
 Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
                      const std::vector<std::uint32_t>& region_of_basin,
-                     const std::vector<std::uint32_t>& object_of_basin, double spacing) {
-  Splitter splitter(complex, basins, region_of_basin, object_of_basin);
-  splitter.seed_regions();
-  splitter.add_farthest(spacing);
-  return splitter.finish();
+                     const std::vector<std::uint32_t>& object_of_basin, double spacing,
+                     int threads) {
+  const Inside inside = find_inside(complex, basins, region_of_basin, threads);
+  const std::vector<double> extents = object_extents(inside, basins, object_of_basin);
+  // Cells along the surface, with balls no larger than the spacing, are no seeds.
+  std::vector<bool> may_seed(inside.cells.size());
+  for (std::size_t i = 0; i < may_seed.size(); ++i) {
+    may_seed[i] = complex.radii[inside.cells[i]] > 1.2 * spacing;
+  }
+  Growth growth(inside, std::move(may_seed));
+  Pieces pieces;
+  const auto add_piece = [&](std::uint32_t seed) {
+    const std::uint32_t cell = inside.cells[seed];
+    const std::uint32_t basin = basins.basin_of_cell[cell];
+    pieces.region.push_back(region_of_basin[basin]);
+    pieces.extent.push_back(extents[object_of_basin[basin]]);
+    pieces.seed.push_back(cell);
+    growth.add(seed);
+  };
+  std::vector<std::uint32_t> first_piece(basins.count(), kNoBasin);
+  for (const std::uint32_t seed : region_seeds(basins, region_of_basin)) {
+    first_piece[region_of_basin[basins.basin_of_cell[seed]]] =
+        static_cast<std::uint32_t>(pieces.count());
+    add_piece(static_cast<std::uint32_t>(std::ranges::lower_bound(inside.cells, seed) -
+                                         inside.cells.begin()));
+  }
+  // Then around the cell that lies farthest from all seeds, again and again.
+  while (pieces.count() < kMostPieces) {
+    double most = kPieceRadius;
+    std::uint32_t seed = kNoCell;
+    for (std::size_t k = 0; k < pieces.count(); ++k) {
+      const std::uint32_t c = growth.farthest(k);
+      if (c == kNoCell) continue;
+      const double apart = growth.distance_to_seed(c) / pieces.extent[k];
+      if (apart < most || (apart == most && (seed == kNoCell || c < seed))) continue;
+      most = apart;
+      seed = c;
+    }
+    if (seed == kNoCell) break;
+    add_piece(seed);
+  }
+  // Cells that no path through their region reaches stay with their region's first piece.
+  pieces.piece_of_cell.assign(complex.cell_count(), kNoBasin);
+  for (std::size_t i = 0; i < inside.cells.size(); ++i) {
+    const std::uint32_t c = inside.cells[i];
+    const std::uint32_t piece = growth.piece_of_cell()[i];
+    pieces.piece_of_cell[c] =
+        piece != kNoBasin ? piece : first_piece[region_of_basin[basins.basin_of_cell[c]]];
+  }
+  return pieces;
 }
 
 }  // namespace morsel

@@ -21,10 +21,10 @@ struct Pieces {
 /// `region_of_basin` groups the basins that no neck separates, numbered from 0;
 /// `object_of_basin` those that touch at all, by any number. `spacing` is the points' mean λ.
 /// Seeds are chosen farthest first through the inside, so the pieces depend on the shape alone, not
-/// on its pose or density. Cost: O(c log c) for a bounded number of pieces.
+/// on its pose or density. Cost: O(c log p) for p pieces.
 [[nodiscard]] Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
                                    const std::vector<std::uint32_t>& region_of_basin,
                                    const std::vector<std::uint32_t>& object_of_basin,
-                                   double spacing);
+                                   double spacing, int threads);
 
 }  // namespace morsel

@@ -1,7 +1,9 @@
 #include "segment/sight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/threads.hpp"
 #include "delaunay/balls.hpp"
@@ -14,7 +16,9 @@ constexpr double kSightScale = 0.4;
 // Pairs farther apart, of weights below exp(-1.5²) = 0.1, are not looked at.
 constexpr double kSightReach = 1.5 * kSightScale;
 
-// A straight walk from cell to cell.
+// A straight walk from cell to cell. Each corner is seen from the start along the way: x and y
+// across it, z along it, 1 at the end. The way leaves a cell through the facet whose image holds
+// the origin.
 class SegmentWalk {
  public:
   SegmentWalk(const DelaunayComplex& complex, const Interior& interior)
@@ -23,49 +27,125 @@ class SegmentWalk {
   // True when the segment between the centroids of two cells leaves the inside for at most
   // `tolerance` units in all.
   [[nodiscard]] bool stays_inside(std::uint32_t from, std::uint32_t to, double tolerance) const {
-    const Vec3 start = cell_centroid(complex_, from);
-    const Vec3 direction = cell_centroid(complex_, to) - start;
-    double allowed = tolerance / norm(direction);
-    double entered = 0.0;
+    const View view(cell_centroid(complex_, from), cell_centroid(complex_, to));
+    double allowed = tolerance / view.length();
+    double entered = 0.0;  // as shares of the segment, kept up to date outside only
     std::uint32_t cell = from;
-    std::uint32_t previous = kNoCell;
+    Facet facet = first_facet(view, from);
     while (cell != to) {
-      const Exit exit = find_exit(cell, previous, start, direction);
-      if (exit.slot < 0) return true;  // rounding hid the way out, next to the end
-      const double left = std::clamp(exit.at, entered, 1.0);
-      if (interior_.side[cell] != CellSide::kInner) allowed -= left - entered;
-      if (allowed < 0.0) return false;
-      if (exit.at >= 1.0) return true;
-      entered = left;
-      previous = cell;
-      cell = complex_.neighbors[cell][exit.slot];
-      if (cell == kNoCell) return false;
+      const bool inner = interior_.side[cell] == CellSide::kInner;
+      const std::uint32_t next = complex_.neighbors[cell][facet.slot];
+      if (next == kNoCell) return false;
+      if (!inner) {
+        const double left = std::clamp(height(facet), entered, 1.0);
+        allowed -= left - entered;
+        if (allowed < 0.0) return false;
+        entered = left;
+      } else if (interior_.side[next] != CellSide::kInner) {
+        entered = std::clamp(height(facet), 0.0, 1.0);
+      }
+      if (facet.corners[0].z >= 1.0 && facet.corners[1].z >= 1.0 && facet.corners[2].z >= 1.0) {
+        return true;  // rounding hid the last cell
+      }
+      advance(view, cell, next, facet);
+      cell = next;
     }
     return true;
   }
 
  private:
-  struct Exit {
-    int slot = -1;
-    double at = 2.0;  // as a share of the segment
+  class View {
+   public:
+    View(const Vec3& start, const Vec3& end) : start_(start) {
+      const Vec3 way = end - start;
+      length_ = norm(way);
+      const Vec3 along = (1.0 / length_) * way;
+      // Any axis across will do; that of the smallest component is far from parallel.
+      const Vec3 size{std::abs(along.x), std::abs(along.y), std::abs(along.z)};
+      const Vec3 axis = size.x <= size.y && size.x <= size.z ? Vec3{1.0, 0.0, 0.0}
+                        : size.y <= size.z                   ? Vec3{0.0, 1.0, 0.0}
+                                                             : Vec3{0.0, 0.0, 1.0};
+      const Vec3 across = cross(along, axis);
+      x_ = (1.0 / norm(across)) * across;
+      y_ = cross(along, x_);
+      z_ = (1.0 / length_) * along;
+    }
+    [[nodiscard]] double length() const { return length_; }
+    [[nodiscard]] Vec3 see(const Vec3& p) const {
+      const Vec3 d = p - start_;
+      return {dot(x_, d), dot(y_, d), dot(z_, d)};
+    }
+
+   private:
+    Vec3 start_;
+    double length_ = 0.0;
+    Vec3 x_, y_, z_;
   };
 
-  [[nodiscard]] Exit find_exit(std::uint32_t cell, std::uint32_t previous, const Vec3& start,
-                               const Vec3& direction) const {
-    Exit exit;
-    const auto& corners = complex_.cells[cell];
-    for (int i = 0; i < 4; ++i) {
-      if (previous != kNoCell && complex_.neighbors[cell][i] == previous) continue;
-      const Vec3& a = complex_.vertices[corners[kFacetSlots[i][0]]];
-      const Vec3& b = complex_.vertices[corners[kFacetSlots[i][1]]];
-      const Vec3& c = complex_.vertices[corners[kFacetSlots[i][2]]];
-      const Vec3 normal = cross(b - a, c - a);
-      const double speed = dot(normal, direction);
-      if (speed <= 0.0) continue;
-      const double at = dot(normal, a - start) / speed;
-      if (at < exit.at) exit = {i, at};
+  // The way out of a cell: counter-clockwise as seen by the eye of the walk.
+  struct Facet {
+    std::array<Vec3, 3> corners;
+    std::array<std::uint32_t, 3> vertices;
+    std::size_t slot;  // opposite it, in the cell that is left
+  };
+
+  // Without a branch: which one it is cannot be foreseen.
+  static std::size_t slot_of(const std::array<std::uint32_t, 4>& four, std::uint32_t value) {
+    return static_cast<std::size_t>(four[1] == value) +
+           2 * static_cast<std::size_t>(four[2] == value) +
+           3 * static_cast<std::size_t>(four[3] == value);
+  }
+
+  // Twice the signed area of the origin and two corners.
+  static double turn(const Vec3& a, const Vec3& b) { return a.x * b.y - a.y * b.x; }
+
+  // Where the segment meets the facet.
+  static double height(const Facet& facet) {
+    const auto& [a, b, c] = facet.corners;
+    const double wa = turn(b, c);
+    const double wb = turn(c, a);
+    const double wc = turn(a, b);
+    const double sum = wa + wb + wc;
+    return sum > 0.0 ? (wa * a.z + wb * b.z + wc * c.z) / sum : a.z;
+  }
+
+  // The facet of the first cell whose image holds the origin most clearly.
+  [[nodiscard]] Facet first_facet(const View& view, std::uint32_t cell) const {
+    Facet best{};
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t slot = 0; slot < 4; ++slot) {
+      Facet facet{};
+      facet.slot = slot;
+      for (std::size_t k = 0; k < 3; ++k) {
+        facet.vertices[k] = complex_.cells[cell][static_cast<std::size_t>(kFacetSlots[slot][k])];
+        facet.corners[k] = view.see(complex_.vertices[facet.vertices[k]]);
+      }
+      const auto& [a, b, c] = facet.corners;
+      const double least = std::min({turn(a, b), turn(b, c), turn(c, a)});
+      if (least <= most) continue;
+      most = least;
+      best = facet;
     }
-    return exit;
+    return best;
+  }
+
+  // From the facet between `previous` and `cell` to the one through which `cell` is left: the new
+  // corner takes the place of the one that it hides.
+  void advance(const View& view, std::uint32_t previous, std::uint32_t cell, Facet& facet) const {
+    const auto& vertices = complex_.cells[cell];
+    const std::uint32_t vertex = vertices[slot_of(complex_.neighbors[cell], previous)];
+    const Vec3 corner = view.see(complex_.vertices[vertex]);
+    // Which corners lie to the left of the ray from the origin through the new one.
+    unsigned left = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      left |= static_cast<unsigned>(turn(corner, facet.corners[k]) >= 0.0) << k;
+    }
+    // The ray is met again between a left one and a right one; the third corner is hidden.
+    constexpr std::array<std::uint8_t, 8> kHidden{0, 2, 0, 0, 1, 2, 1, 0};
+    const std::size_t hidden = kHidden[left];
+    facet.slot = slot_of(vertices, facet.vertices[hidden]);
+    facet.corners[hidden] = corner;
+    facet.vertices[hidden] = vertex;
   }
 
   const DelaunayComplex& complex_;
@@ -81,16 +161,15 @@ SightTable find_sight(const DelaunayComplex& complex, const Interior& interior,
   table.seen.assign(count * count, 0.0F);
   table.weight.assign(count * count, 0.0F);
   const SegmentWalk walk(complex, interior);
+  std::vector<Vec3> place;
+  for (const std::uint32_t cell : pieces.seed) place.push_back(cell_centroid(complex, cell));
   parallel_rows(count, threads, [&](std::size_t a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const std::uint32_t from = pieces.seed[a];
-      const std::uint32_t to = pieces.seed[b];
-      const double apart = distance(cell_centroid(complex, from), cell_centroid(complex, to));
-      const double relative = apart / pieces.extent[a];
+      const double relative = distance(place[a], place[b]) / pieces.extent[a];
       if (!(relative < kSightReach)) continue;
       const double scaled = relative / kSightScale;
       table.seen[a * count + b] = table.seen[b * count + a] =
-          walk.stays_inside(from, to, 0.5 * spacing) ? 1.0F : 0.0F;
+          walk.stays_inside(pieces.seed[a], pieces.seed[b], 0.5 * spacing) ? 1.0F : 0.0F;
       table.weight[a * count + b] = table.weight[b * count + a] =
           static_cast<float>(std::exp(-scaled * scaled));
     }
