@@ -51,6 +51,6 @@ struct Interior {
 /// the cells between the seeds. Cost: O(c log c).
 [[nodiscard]] Interior find_interior(const DelaunayComplex& complex,
                                      const std::vector<double>& lambda,
-                                     const InteriorOptions& options = {});
+                                     const InteriorOptions& options = {}, int threads = 0);
 
 }  // namespace morsel

@@ -29,7 +29,8 @@ struct Basins {
 /// Follows the flow from each inner cell to its strongest reachable maximum: cell σ flows across a
 /// facet into the neighbour on whose side σ's circumcentre lies (exact predicate).
 /// Source: Dey, Giesen, Goswami 2004, section 3. Cost: O(c).
-[[nodiscard]] Basins find_basins(const DelaunayComplex& complex, const Interior& interior);
+[[nodiscard]] Basins find_basins(const DelaunayComplex& complex, const Interior& interior,
+                                 int threads = 0);
 
 /// Volume and its first and second moments: what a part is, as far as sums can tell.
 struct Moments {

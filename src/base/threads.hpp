@@ -4,9 +4,12 @@
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace morsel {
 
@@ -43,6 +46,35 @@ void parallel_rows(std::size_t count, int threads, const Body& body) {
   }
   tbb::task_arena arena(threads);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
+}
+
+/// What collect(begin, end, values) appends for disjoint ranges that cover [0, count), in the order
+/// of the ranges.
+template <typename Value, typename Collect>
+std::vector<Value> parallel_collect(std::size_t count, int threads, const Collect& collect) {
+  constexpr std::size_t kChunk = 16384;
+  std::vector<std::vector<Value>> chunks((count + kChunk - 1) / kChunk);
+  parallel_rows(chunks.size(), threads, [&](std::size_t i) {
+    collect(i * kChunk, std::min((i + 1) * kChunk, count), chunks[i]);
+  });
+  std::vector<Value> values;
+  std::size_t total = 0;
+  for (const auto& chunk : chunks) total += chunk.size();
+  values.reserve(total);
+  for (const auto& chunk : chunks) values.insert(values.end(), chunk.begin(), chunk.end());
+  return values;
+}
+
+/// Sorts by operator<, which must tell any two different values apart, for one result in every run.
+template <typename Value>
+void parallel_sort(std::vector<Value>& values, int threads) {
+  threads = resolve_threads(threads);
+  if (threads == 1) {
+    std::sort(values.begin(), values.end());
+    return;
+  }
+  tbb::task_arena arena(threads);
+  arena.execute([&] { tbb::parallel_sort(values.begin(), values.end()); });
 }
 
 }  // namespace morsel

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/threads.hpp"
 #include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
 
@@ -84,29 +85,40 @@ void join_labels(UnionFind& forest, std::vector<CellSide>& side, std::uint32_t a
   side[forest.root(a)] = label;
 }
 
-std::vector<double> ball_ratios(const DelaunayComplex& complex, const std::vector<double>& lambda) {
+std::vector<double> ball_ratios(const DelaunayComplex& complex, const std::vector<double>& lambda,
+                                int threads) {
   std::vector<double> ratio(complex.cell_count());
-  for (std::size_t c = 0; c < ratio.size(); ++c) {
-    const auto& [i, j, k, l] = complex.cells[c];
-    ratio[c] = complex.radii[c] / std::max({lambda[i], lambda[j], lambda[k], lambda[l]});
-  }
+  parallel_ranges(ratio.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      const auto& [i, j, k, l] = complex.cells[c];
+      ratio[c] = complex.radii[c] / std::max({lambda[i], lambda[j], lambda[k], lambda[l]});
+    }
+  });
   return ratio;
+}
+
+// Between all neighbours of which one at least is still open.
+std::vector<Bridge> find_bridges(const DelaunayComplex& complex, const std::vector<double>& ratio,
+                                 const std::vector<CellSide>& side, int threads) {
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Bridge>& bridges) {
+    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
+      for (const std::uint32_t d : complex.neighbors[c]) {
+        if (d == kNoCell || d < c) continue;
+        if (side[c] != CellSide::kOpen && side[d] != CellSide::kOpen) continue;
+        const double depth = 1.0 + cos_ball_angle(complex, c, d);
+        bridges.push_back({std::min(ratio[c], ratio[d]) * depth, c, d});
+      }
+    }
+  };
+  return parallel_collect<Bridge>(side.size(), threads, collect);
 }
 
 // Flooding from the seeds, strongest bridge first, first come first served, is growing a maximum
 // spanning forest with one kind of seed a tree; so the bridges are sorted once and joined.
 void flood(const DelaunayComplex& complex, const std::vector<double>& ratio,
-           std::vector<CellSide>& side) {
-  std::vector<Bridge> bridges;
-  for (std::uint32_t c = 0; c < side.size(); ++c) {
-    for (const std::uint32_t d : complex.neighbors[c]) {
-      if (d == kNoCell || d < c) continue;
-      if (side[c] != CellSide::kOpen && side[d] != CellSide::kOpen) continue;
-      const double depth = 1.0 + cos_ball_angle(complex, c, d);
-      bridges.push_back({std::min(ratio[c], ratio[d]) * depth, c, d});
-    }
-  }
-  std::sort(bridges.begin(), bridges.end());
+           std::vector<CellSide>& side, int threads) {
+  std::vector<Bridge> bridges = find_bridges(complex, ratio, side, threads);
+  parallel_sort(bridges, threads);
   UnionFind forest(side.size());
   for (const Bridge& bridge : bridges) join_labels(forest, side, bridge.a, bridge.b);
   for (std::uint32_t c = 0; c < side.size(); ++c) side[c] = side[forest.root(c)];
@@ -134,18 +146,18 @@ void drop_flecks(const DelaunayComplex& complex, std::vector<CellSide>& side) {
 }
 
 std::vector<CellSide> label_by_flood(const DelaunayComplex& complex,
-                                     const std::vector<double>& lambda) {
+                                     const std::vector<double>& lambda, int threads) {
   // A ball this many times larger than its corners' spacing cannot come from noise or sampling.
   constexpr double kSeedRatio = 4.0;
   constexpr double kSeedCosine = 0.5;  // 60 degrees
   std::vector<CellSide> side(complex.cell_count(), CellSide::kOpen);
-  const std::vector<double> ratio = ball_ratios(complex, lambda);
+  const std::vector<double> ratio = ball_ratios(complex, lambda, threads);
   const auto is_seed = [&](std::uint32_t cell) { return ratio[cell] > kSeedRatio; };
   walk_from_outside(complex, kSeedCosine, is_seed, side);
   for (std::uint32_t c = 0; c < side.size(); ++c) {
     if (side[c] == CellSide::kOpen && is_seed(c)) side[c] = CellSide::kInner;
   }
-  flood(complex, ratio, side);
+  flood(complex, ratio, side, threads);
   drop_flecks(complex, side);
   return side;
 }
@@ -164,11 +176,11 @@ void InteriorOptions::check() const {
 }
 
 Interior find_interior(const DelaunayComplex& complex, const std::vector<double>& lambda,
-                       const InteriorOptions& options) {
+                       const InteriorOptions& options, int threads) {
   options.check();
   Interior interior;
   interior.side = options.method == Method::kPaper ? label_as_published(complex, lambda, options)
-                                                   : label_by_flood(complex, lambda);
+                                                   : label_by_flood(complex, lambda, threads);
   for (std::size_t c = 0; c < interior.side.size(); ++c) {
     interior.outer_cells += interior.side[c] == CellSide::kOuter ? 1 : 0;
     if (interior.side[c] != CellSide::kInner) continue;

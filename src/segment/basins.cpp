@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <morsel/segment.hpp>
 
+#include "base/threads.hpp"
 #include "delaunay/balls.hpp"
 
 namespace morsel {
 namespace {
 
 // Bit i is set when the cell flows across its facet i into an inner neighbour.
-std::vector<std::uint8_t> find_flow(const DelaunayComplex& complex, const Interior& interior) {
+std::vector<std::uint8_t> find_flow(const DelaunayComplex& complex, const Interior& interior,
+                                    int threads) {
   std::vector<std::uint8_t> flow(complex.cell_count(), 0);
-  for (std::size_t c = 0; c < flow.size(); ++c) {
-    if (interior.side[c] != CellSide::kInner) continue;
+  const auto set_flow = [&](std::size_t c) {
     const auto& cell = complex.cells[c];
     for (int i = 0; i < 4; ++i) {
       const auto& slots = kFacetSlots[i];
@@ -23,7 +24,12 @@ std::vector<std::uint8_t> find_flow(const DelaunayComplex& complex, const Interi
         flow[c] |= static_cast<std::uint8_t>(1U << i);
       }
     }
-  }
+  };
+  parallel_ranges(flow.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      if (interior.side[c] == CellSide::kInner) set_flow(c);
+    }
+  });
   return flow;
 }
 
@@ -106,8 +112,8 @@ void adopt_strays(const DelaunayComplex& complex, const Interior& interior, Basi
 
 }  // namespace
 
-Basins find_basins(const DelaunayComplex& complex, const Interior& interior) {
-  const std::vector<std::uint8_t> flow = find_flow(complex, interior);
+Basins find_basins(const DelaunayComplex& complex, const Interior& interior, int threads) {
+  const std::vector<std::uint8_t> flow = find_flow(complex, interior, threads);
   Basins basins;
   basins.basin_of_cell.assign(complex.cell_count(), kNoBasin);
   basins.maximum = find_maxima(complex, interior, flow);

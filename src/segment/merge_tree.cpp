@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/threads.hpp"
 #include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
 #include "segment/agglomerate.hpp"
@@ -25,22 +26,24 @@ constexpr double kRadiusTolerance = 0.25;
 
 // Pairs of touching pieces, or of touching basins, by the label of each cell.
 std::vector<Neck> find_necks(const DelaunayComplex& complex,
-                             const std::vector<std::uint32_t>& label) {
-  std::vector<Neck> necks;
-  for (std::uint32_t c = 0; c < complex.cells.size(); ++c) {
-    const std::uint32_t b = label[c];
-    if (b == kNoBasin) continue;
-    for (int i = 0; i < 4; ++i) {
-      const std::uint32_t d = complex.neighbors[c][i];
-      if (d == kNoCell || label[d] == kNoBasin || label[d] <= b) continue;
-      const auto& cell = complex.cells[c];
-      const auto& slots = kFacetSlots[i];
-      necks.push_back(
-          {b, label[d],
-           circumradius(complex.vertices[cell[slots[0]]], complex.vertices[cell[slots[1]]],
-                        complex.vertices[cell[slots[2]]])});
+                             const std::vector<std::uint32_t>& label, int threads) {
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Neck>& necks) {
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::uint32_t b = label[c];
+      if (b == kNoBasin) continue;
+      for (int i = 0; i < 4; ++i) {
+        const std::uint32_t d = complex.neighbors[c][i];
+        if (d == kNoCell || label[d] == kNoBasin || label[d] <= b) continue;
+        const auto& cell = complex.cells[c];
+        const auto& slots = kFacetSlots[i];
+        necks.push_back(
+            {b, label[d],
+             circumradius(complex.vertices[cell[slots[0]]], complex.vertices[cell[slots[1]]],
+                          complex.vertices[cell[slots[2]]])});
+      }
     }
-  }
+  };
+  std::vector<Neck> necks = parallel_collect<Neck>(label.size(), threads, collect);
   std::ranges::sort(necks, [](const Neck& x, const Neck& y) {
     return std::tie(x.a, x.b, y.radius) < std::tie(y.a, y.b, x.radius);
   });
@@ -170,12 +173,12 @@ std::vector<std::uint32_t> group_labels(UnionFind& groups, std::size_t count) {
 }
 
 BasinGroups group_basins(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-                         const Basins& basins, double spacing) {
+                         const Basins& basins, double spacing, int threads) {
   // Radii of one region differ by so much from sampling alone.
   constexpr double kSameRegion = 1.03;
   BasinGroups result;
-  result.necks = find_necks(complex, basins.basin_of_cell);
-  result.basin_of_vertex = label_vertices(complex, vertex_cells, basins, result.necks);
+  result.necks = find_necks(complex, basins.basin_of_cell, threads);
+  result.basin_of_vertex = label_vertices(complex, vertex_cells, basins, result.necks, threads);
   std::vector<Merge> merges = link(complex, basins, result.necks, kRadiusTolerance * spacing);
   mark_significant(count_points(complex, result.basin_of_vertex, basins.count()), merges);
   UnionFind regions(basins.count());
@@ -259,13 +262,13 @@ void assign_points(const DelaunayComplex& complex,
 }
 
 MergeTree build_as_published(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-                             const Basins& basins) {
+                             const Basins& basins, int threads) {
   MergeTree tree;
   tree.natural_ratio = 1.5;
-  tree.necks = find_necks(complex, basins.basin_of_cell);
+  tree.necks = find_necks(complex, basins.basin_of_cell, threads);
   sum_pieces(complex, basins.basin_of_cell, basins.count(), tree);
   tree.merges = link(complex, basins, tree.necks, 0.0);
-  assign_points(complex, label_vertices(complex, vertex_cells, basins, tree.necks), tree);
+  assign_points(complex, label_vertices(complex, vertex_cells, basins, tree.necks, threads), tree);
   // The paper keeps small segments; only its matching leaves them out.
   for (Merge& merge : tree.merges) merge.significant = true;
   tree.component_count = basins.count() - tree.merges.size();
@@ -285,17 +288,17 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
                            const std::vector<double>& lambda, const Interior& interior,
                            const Basins& basins, Method method, int threads) {
   if (method == Method::kPaper) {
-    return build_as_published(complex, vertex_cells, basins);
+    return build_as_published(complex, vertex_cells, basins, threads);
   }
   const double spacing = lambda.empty() ? 0.0
                                         : std::accumulate(lambda.begin(), lambda.end(), 0.0) /
                                               static_cast<double>(lambda.size());
-  const BasinGroups groups = group_basins(complex, vertex_cells, basins, spacing);
+  const BasinGroups groups = group_basins(complex, vertex_cells, basins, spacing, threads);
   const Pieces pieces = split_regions(complex, basins, groups.region_of_basin,
                                       groups.object_of_basin, spacing, threads);
   MergeTree tree;
   tree.natural_ratio = natural_merge_ratio();
-  tree.necks = find_necks(complex, pieces.piece_of_cell);
+  tree.necks = find_necks(complex, pieces.piece_of_cell, threads);
   sum_pieces(complex, pieces.piece_of_cell, pieces.count(), tree);
   assign_points(complex, label_vertices_by_piece(complex, vertex_cells, basins, groups, pieces),
                 tree);

@@ -127,9 +127,11 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
   const std::vector<double> lambda = stages.run("neighbors", 0.7, [&] {
     return mean_neighbor_distance(s.complex, vertex_cells, options.threads);
   });
-  s.interior = stages.run("interior", 0.75,
-                          [&] { return find_interior(s.complex, lambda, options.interior); });
-  s.basins = stages.run("basins", 0.85, [&] { return find_basins(s.complex, s.interior); });
+  s.interior = stages.run("interior", 0.75, [&] {
+    return find_interior(s.complex, lambda, options.interior, options.threads);
+  });
+  s.basins = stages.run("basins", 0.85,
+                        [&] { return find_basins(s.complex, s.interior, options.threads); });
   s.verdict = judge(s);
   if (s.verdict == Verdict::kSolid) {
     s.tree = stages.run("merge", 0.9, [&] {

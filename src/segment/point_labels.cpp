@@ -6,6 +6,8 @@
 #include <queue>
 #include <tuple>
 
+#include "base/threads.hpp"
+
 namespace morsel {
 namespace {
 
@@ -80,26 +82,28 @@ void spread_labels(const DelaunayComplex& complex, const VertexCells& vertex_cel
 
 std::vector<std::uint32_t> label_vertices(const DelaunayComplex& complex,
                                           const VertexCells& vertex_cells, const Basins& basins,
-                                          const std::vector<Neck>& necks) {
+                                          const std::vector<Neck>& necks, int threads) {
   std::vector<std::uint32_t> basin_of_vertex(complex.vertices.size(), kNoBasin);
   if (basins.count() == 0) return basin_of_vertex;
   const BasinGraph graph = make_basin_graph(basins.count(), necks);
-  std::vector<std::uint32_t> touched;
-  for (std::uint32_t v = 0; v < basin_of_vertex.size(); ++v) {
-    touched.clear();
-    for (const std::uint32_t c : vertex_cells.of(v)) {
-      const std::uint32_t b = basins.basin_of_cell[c];
-      if (b != kNoBasin && std::ranges::find(touched, b) == touched.end()) touched.push_back(b);
-    }
-    BestBall best;
-    for (const std::uint32_t b : touched) {
-      best.offer(complex, basins, complex.vertices[v], b);
-      for (std::uint32_t i = graph.offsets[b]; i < graph.offsets[b + 1]; ++i) {
-        best.offer(complex, basins, complex.vertices[v], graph.targets[i]);
+  parallel_ranges(basin_of_vertex.size(), threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> touched;
+    for (std::size_t v = begin; v < end; ++v) {
+      touched.clear();
+      for (const std::uint32_t c : vertex_cells.of(v)) {
+        const std::uint32_t b = basins.basin_of_cell[c];
+        if (b != kNoBasin && std::ranges::find(touched, b) == touched.end()) touched.push_back(b);
       }
+      BestBall best;
+      for (const std::uint32_t b : touched) {
+        best.offer(complex, basins, complex.vertices[v], b);
+        for (std::uint32_t i = graph.offsets[b]; i < graph.offsets[b + 1]; ++i) {
+          best.offer(complex, basins, complex.vertices[v], graph.targets[i]);
+        }
+      }
+      basin_of_vertex[v] = best.basin;
     }
-    basin_of_vertex[v] = best.basin;
-  }
+  });
   spread_labels(complex, vertex_cells, basin_of_vertex);
   return basin_of_vertex;
 }

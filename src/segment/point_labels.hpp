@@ -14,6 +14,7 @@ namespace morsel {
 [[nodiscard]] std::vector<std::uint32_t> label_vertices(const DelaunayComplex& complex,
                                                         const VertexCells& vertex_cells,
                                                         const Basins& basins,
-                                                        const std::vector<Neck>& necks);
+                                                        const std::vector<Neck>& necks,
+                                                        int threads);
 
 }  // namespace morsel
