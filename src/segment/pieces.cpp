@@ -83,10 +83,10 @@ class Growth {
  public:
   // `may_seed[i]` says which cells can become a seed.
   Growth(const Inside& inside, std::vector<bool> may_seed)
-      : inside_(inside),
-        may_seed_(std::move(may_seed)),
-        squared_(inside.cells.size(), kInfinity),
-        piece_(inside.cells.size(), kNoBasin) {}
+      : inside_(inside), may_seed_(std::move(may_seed)), piece_(inside.cells.size(), kNoBasin) {
+    places_.reserve(inside.cells.size());
+    for (const Vec3& centroid : inside.centroids) places_.push_back({centroid, kInfinity});
+  }
 
   [[nodiscard]] const std::vector<std::uint32_t>& piece_of_cell() const { return piece_; }
 
@@ -94,7 +94,7 @@ class Growth {
   [[nodiscard]] std::uint32_t farthest(std::size_t piece) const { return farthest_[piece]; }
 
   [[nodiscard]] double distance_to_seed(std::uint32_t cell) const {
-    return std::sqrt(squared_[cell]);
+    return std::sqrt(places_[cell].squared);
   }
 
   // A new piece takes every cell that is nearer to its seed than to any before.
@@ -109,26 +109,36 @@ class Growth {
   }
 
  private:
-  // Cells are visited again when a way that strays less is found to them, which is rare; in the
-  // end each holds the least, in whatever order they were visited.
+  // Cells wait in buckets, the nearest first, and are visited again when a way that strays less is
+  // found to them; in the end each holds the least, in whatever order they were visited.
   std::vector<std::uint32_t> grow(std::uint32_t seed, std::uint32_t piece) {
-    const Vec3 center = inside_.centroids[seed];
-    std::vector<std::uint32_t> taken{seed};
-    std::vector<std::uint32_t> open{seed};
-    squared_[seed] = 0.0;
-    piece_[seed] = piece;
-    for (std::size_t next = 0; next < open.size(); ++next) {
-      const std::uint32_t c = open[next];
-      for (const std::uint32_t d : inside_.neighbors[c]) {
-        if (d == kNoCell) continue;
-        const double squared =
-            std::max(squared_[c], squared_distance(center, inside_.centroids[d]));
-        if (squared >= squared_[d]) continue;
-        squared_[d] = squared;
-        open.push_back(d);
-        if (piece_[d] != piece) taken.push_back(d);
-        piece_[d] = piece;
+    const Vec3 center = places_[seed].centroid;
+    // Hardly anything is taken from farther than the seed lies from the one before; the first has
+    // one bucket.
+    const double scale = kBuckets / places_[seed].squared;
+    const auto bucket_of = [&](double squared) {
+      return static_cast<std::size_t>(std::min(scale * squared, kBuckets - 1.0));
+    };
+    std::vector<std::uint32_t> taken;
+    const auto take = [&](std::uint32_t c, double squared) {
+      places_[c].squared = squared;
+      if (piece_[c] != piece) taken.push_back(c);
+      piece_[c] = piece;
+      buckets_[bucket_of(squared)].push_back(c);
+    };
+    take(seed, 0.0);
+    for (std::size_t b = 0; b < buckets_.size(); ++b) {
+      for (std::size_t i = 0; i < buckets_[b].size(); ++i) {
+        const std::uint32_t c = buckets_[b][i];
+        const double reached = places_[c].squared;
+        if (bucket_of(reached) < b) continue;
+        for (const std::uint32_t d : inside_.neighbors[c]) {
+          if (d == kNoCell || places_[d].squared <= reached) continue;
+          const double squared = std::max(reached, squared_distance(center, places_[d].centroid));
+          if (squared < places_[d].squared) take(d, squared);
+        }
       }
+      buckets_[b].clear();
     }
     return taken;
   }
@@ -140,17 +150,23 @@ class Growth {
     std::uint32_t best = kNoCell;
     for (const std::uint32_t c : members) {
       if (!may_seed_[c]) continue;
-      if (best == kNoCell || squared_[c] > squared_[best] ||
-          (squared_[c] == squared_[best] && c > best)) {
-        best = c;
-      }
+      const double more = best == kNoCell ? 1.0 : places_[c].squared - places_[best].squared;
+      if (more > 0.0 || (more == 0.0 && c > best)) best = c;
     }
     farthest_[piece] = best;
   }
 
+  struct Place {
+    Vec3 centroid;
+    double squared;  // of the distance to the own piece's seed
+  };
+
+  static constexpr double kBuckets = 64.0;
+
   const Inside& inside_;
   std::vector<bool> may_seed_;
-  std::vector<double> squared_;  // of the distance to the own piece's seed
+  std::vector<Place> places_;
+  std::array<std::vector<std::uint32_t>, static_cast<std::size_t>(kBuckets)> buckets_;
   std::vector<std::uint32_t> piece_;
   std::vector<std::vector<std::uint32_t>> members_;  // of each piece, and some that it has lost
   std::vector<std::uint32_t> farthest_;
