@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -80,11 +81,14 @@ json describe(const ClassedShape& shape, int id, const RetrievalOptions& options
   const Cloud cloud = sample_cloud(read_mesh(shape.path), id, options.cloud(noise));
   const std::vector<Vec3> points = posed(cloud.points, seed_of_model(options.seed, id));
   const Segmentation s = segment(points, options.segment());
-  return {{"signature", to_json(s.signature)},
+  const auto began = std::chrono::steady_clock::now();
+  const Signature signature = make_signature(s, 1);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began;
+  return {{"signature", to_json(signature)},
           {"d2", d2_distribution(points, {.threads = 1})},
           {"diagonal", box_diagonal(points)},
           {"triangulate", seconds_of(s, "triangulate")},
-          {"signature_seconds", seconds_of(s, "signature")}};
+          {"signature_seconds", taken.count()}};
 }
 
 Described described_of(const Outcome& outcome) {

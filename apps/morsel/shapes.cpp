@@ -23,10 +23,11 @@ Subject read_subject(const std::string& file, const ReadOptions& options,
   SegmentOptions segment_options;
   segment_options.threads = options.threads;
   const Segmentation result = segment(cloud.points, segment_options, &progress);
-  if (!(result.signature.size > 0.0)) {
+  Signature signature = make_signature(result, options.threads);
+  if (!(signature.size > 0.0)) {
     throw Error(ErrorCode::kInput, fmt::format("{}: {}", file, result.message));
   }
-  return {file == "-" ? "standard input" : file, result.signature, make_sketch(result)};
+  return {file == "-" ? "standard input" : file, std::move(signature), make_sketch(result)};
 }
 
 [[noreturn]] void fail_unknown(const std::string& text, const Database* database) {

@@ -63,17 +63,21 @@ struct Segmentation {
   DelaunayComplex complex;
   Interior interior;
   Basins basins;
-  Signature signature;  ///< encode() it, match() it with others; of size 0 for a flat cloud
   std::vector<StageCost> costs;
 };
 
-/// denoise → triangulate → find_interior → find_basins → build_merge_tree → cut →
-/// make_signature.
+/// denoise → triangulate → find_interior → find_basins → build_merge_tree → cut.
 /// Geometric outcomes are in `verdict`; throws Error(kUsage), Error(kInput) for a coordinate that
 /// is not finite, Error(kCancelled). Cost: O(n log n), about 1 kB a point. Safe to call from
 /// several threads.
 [[nodiscard]] Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options = {},
                                    const Progress* progress = nullptr);
+
+/// The signature of what segment() found: encode() it, match() it with others. Of size 0 for a flat
+/// cloud.
+[[nodiscard]] inline Signature make_signature(const Segmentation& segmentation, int threads = 0) {
+  return make_signature(segmentation.complex, segmentation.basins, segmentation.parts, threads);
+}
 
 /// The report as JSON text: version, options, counts of every stage, parts, merge levels, costs.
 /// Its schema is docs/report.md. `source` names the input.

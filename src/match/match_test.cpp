@@ -28,7 +28,7 @@ Points beast() {
 Signature signature_of(const Points& points) {
   SegmentOptions options;
   options.threads = 1;
-  return segment(points, options).signature;
+  return make_signature(segment(points, options), options.threads);
 }
 
 const Signature& beast_signature() {

@@ -143,9 +143,6 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
   } else {
     s.labels.assign(points.size(), -1);
   }
-  s.signature = stages.run("signature", 0.99, [&] {
-    return make_signature(s.complex, s.basins, s.parts, options.threads);
-  });
   s.message = describe(s);
   if (progress != nullptr) progress->report("done", 1.0);
   return s;

@@ -400,11 +400,10 @@ TEST(SegmentTest, ReportsProgressAndStages) {
   });
   const Segmentation s = segment(shapes::sphere(2000), {}, &progress);
   EXPECT_EQ(last, 1.0);
-  const std::vector<std::string> expected{"denoise",  "triangulate", "neighbors",
-                                          "interior", "basins",      "merge",
-                                          "cut",      "signature",   "done"};
+  const std::vector<std::string> expected{"denoise", "triangulate", "neighbors", "interior",
+                                          "basins",  "merge",       "cut",       "done"};
   EXPECT_EQ(stages, expected);
-  ASSERT_EQ(s.costs.size(), 8U);
+  ASSERT_EQ(s.costs.size(), 7U);
   for (const StageCost& cost : s.costs) {
     EXPECT_GE(cost.seconds, 0.0);
     EXPECT_GT(cost.peak_bytes, 1U << 20);

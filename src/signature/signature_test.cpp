@@ -23,7 +23,7 @@ Points shape() {
 Signature signature_of(const Points& points, int threads = 1) {
   SegmentOptions options;
   options.threads = threads;
-  return segment(points, options).signature;
+  return make_signature(segment(points, options), threads);
 }
 
 TEST(SignatureTest, SurvivesBytesAndJson) {
@@ -116,7 +116,7 @@ TEST(SignatureTest, OrderAndThreadsChangeNoBit) {
 
 TEST(SignatureTest, ThePartsAreThoseOfTheSegmentation) {
   const Segmentation s = segment(shape());
-  const Signature& signature = s.signature;
+  const Signature signature = make_signature(s);
   ASSERT_EQ(signature.parts.size(), std::min(s.parts.parts.size(), kMostSignatureParts));
   for (std::size_t i = 0; i < signature.parts.size(); ++i) {
     const Part& part = s.parts.parts[i];

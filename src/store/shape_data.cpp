@@ -38,12 +38,12 @@ std::string content_key(std::span<const Vec3> points, const SegmentOptions& opti
 
 ShapeData make_shape_data(const Segmentation& segmentation, const SegmentOptions& options,
                           std::string content) {
-  if (!(segmentation.signature.size > 0.0)) throw Error(ErrorCode::kInput, segmentation.message);
   ShapeData data;
+  data.signature = make_signature(segmentation, options.threads);
+  if (!(data.signature.size > 0.0)) throw Error(ErrorCode::kInput, segmentation.message);
   data.content = std::move(content);
   data.options = options_text(options);
   data.points = segmentation.labels.size();
-  data.signature = segmentation.signature;
   data.sketch = make_sketch(segmentation);
   data.thumbnail = draw_thumbnail(data.sketch);
   return data;
