@@ -7,20 +7,13 @@
 #include "base/threads.hpp"
 
 namespace morsel {
-namespace {
 
-Scatter::Axis axis(const Eigen::Matrix3d& sum, int index) {
+Scatter::Axis Scatter::shortest() const {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(sum);
-  const Eigen::Vector3d direction = solver.eigenvectors().col(index);
-  return {{direction.x(), direction.y(), direction.z()},
-          std::max(solver.eigenvalues()[index], 0.0)};
+  solver.computeDirect(sum_);
+  const Eigen::Vector3d direction = solver.eigenvectors().col(0);
+  return {{direction.x(), direction.y(), direction.z()}, std::max(solver.eigenvalues()[0], 0.0)};
 }
-
-}  // namespace
-
-Scatter::Axis Scatter::shortest() const { return axis(sum_, 0); }
-Scatter::Axis Scatter::longest() const { return axis(sum_, 2); }
 
 Planes fit_planes(std::span<const Vec3> points, const Neighborhoods& neighborhoods,
                   std::size_t size, int threads) {

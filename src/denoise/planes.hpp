@@ -11,24 +11,23 @@
 
 namespace morsel {
 
-/// Sum of w d dᵀ over offsets d, and its axes.
+/// Sum of d dᵀ over offsets d, and its shortest axis.
 class Scatter {
  public:
-  void add(const Vec3& d, double weight = 1.0) {
-    sum_(0, 0) += weight * d.x * d.x;
-    sum_(1, 0) += weight * d.y * d.x;
-    sum_(2, 0) += weight * d.z * d.x;
-    sum_(1, 1) += weight * d.y * d.y;
-    sum_(2, 1) += weight * d.z * d.y;
-    sum_(2, 2) += weight * d.z * d.z;
+  void add(const Vec3& d) {
+    sum_(0, 0) += d.x * d.x;
+    sum_(1, 0) += d.y * d.x;
+    sum_(2, 0) += d.z * d.x;
+    sum_(1, 1) += d.y * d.y;
+    sum_(2, 1) += d.z * d.y;
+    sum_(2, 2) += d.z * d.z;
   }
 
   struct Axis {
     Vec3 direction;  ///< unit; its sign means nothing
-    double sum;      ///< of the squared, weighted offsets along it
+    double sum;      ///< of the squared offsets along it
   };
   [[nodiscard]] Axis shortest() const;
-  [[nodiscard]] Axis longest() const;
 
  private:
   Eigen::Matrix3d sum_ = Eigen::Matrix3d::Zero();  // lower triangle

@@ -56,19 +56,19 @@ struct Field {
   int threads;
 };
 
-// The direction that the normals around each point agree on.
+// Each normal becomes the mean of those around it, turned to its side.
 std::vector<Vec3> filter_normals(const Field& field, const std::vector<Vec3>& normals) {
   std::vector<Vec3> filtered(normals.size());
   const auto filter = [&](std::size_t i) {
     const Weights weights(field.neighborhoods.reach[i], field.height_width);
-    Scatter scatter;
-    scatter.add(normals[i]);
+    Vec3 sum = normals[i];
     for (const std::uint32_t j : field.neighborhoods.of(i)) {
       const Vec3 d = field.points[j] - field.points[i];
-      const double weight = weights(dot(d, d), dot(normals[i], normals[j]), dot(normals[i], d));
-      if (weight > 0.0) scatter.add(normals[j], weight);
+      const double cosine = dot(normals[i], normals[j]);
+      const double weight = weights(dot(d, d), cosine, dot(normals[i], d));
+      sum = sum + (weight * cosine) * normals[j];
     }
-    filtered[i] = scatter.longest().direction;
+    filtered[i] = (1.0 / norm(sum)) * sum;  // its component along normals[i] is 1 at least
   };
   parallel_ranges(normals.size(), field.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) filter(i);

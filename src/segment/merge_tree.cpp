@@ -196,11 +196,11 @@ BasinGroups group_basins(const DelaunayComplex& complex, const VertexCells& vert
 std::vector<std::uint32_t> label_vertices_by_piece(const DelaunayComplex& complex,
                                                    const VertexCells& vertex_cells,
                                                    const Basins& basins, const BasinGroups& groups,
-                                                   const Pieces& pieces) {
+                                                   const Pieces& pieces, int threads) {
   std::vector<std::uint32_t> piece_of_vertex(complex.vertices.size(), kNoBasin);
-  for (std::uint32_t v = 0; v < piece_of_vertex.size(); ++v) {
+  const auto label = [&](std::size_t v) {
     const std::uint32_t basin = groups.basin_of_vertex[v];
-    if (basin == kNoBasin) continue;
+    if (basin == kNoBasin) return;
     double largest = 0.0;
     piece_of_vertex[v] = pieces.piece_of_cell[basins.maximum[basin]];
     for (const std::uint32_t c : vertex_cells.of(v)) {
@@ -211,7 +211,10 @@ std::vector<std::uint32_t> label_vertices_by_piece(const DelaunayComplex& comple
       largest = complex.radii[c];
       piece_of_vertex[v] = pieces.piece_of_cell[c];
     }
-  }
+  };
+  parallel_ranges(piece_of_vertex.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) label(v);
+  });
   return piece_of_vertex;
 }
 
@@ -300,7 +303,8 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
   tree.natural_ratio = natural_merge_ratio();
   tree.necks = find_necks(complex, pieces.piece_of_cell, threads);
   sum_pieces(complex, pieces.piece_of_cell, pieces.count(), tree);
-  assign_points(complex, label_vertices_by_piece(complex, vertex_cells, basins, groups, pieces),
+  assign_points(complex,
+                label_vertices_by_piece(complex, vertex_cells, basins, groups, pieces, threads),
                 tree);
   const SightTable sight = find_sight(complex, interior, pieces, spacing, threads);
   tree.merges = agglomerate(

@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // How far a piece's cells lie from its seed, in root mean square radii of the object.
 constexpr double kPieceRadius = 0.17;
-constexpr std::size_t kMostPieces = 400;
+constexpr std::size_t kMostPieces = 300;
 
 // The inner cells by themselves, numbered as in the complex, with their neighbours of the same
 // region: much smaller than the complex, and walked through again and again.
@@ -90,22 +90,33 @@ class Growth {
 
   [[nodiscard]] const std::vector<std::uint32_t>& piece_of_cell() const { return piece_; }
 
-  // The cell farthest from the piece's seed that can become one, or kNoCell.
-  [[nodiscard]] std::uint32_t farthest(std::size_t piece) const { return farthest_[piece]; }
-
-  [[nodiscard]] double distance_to_seed(std::uint32_t cell) const {
-    return std::sqrt(places_[cell].squared);
+  // The cell that lies farthest from its piece's seed, in extents of the piece, among those that
+  // can become a seed; kNoCell when none lies farther than `least`.
+  std::uint32_t next_seed(const std::vector<double>& extent, double least) {
+    while (true) {
+      double most = least;
+      std::size_t piece = members_.size();
+      for (std::size_t k = 0; k < members_.size(); ++k) {
+        const double apart = std::sqrt(farthest_[k].squared) / extent[k];
+        const bool tied = apart == most && piece < members_.size();
+        if (apart > most || (tied && farthest_[k].cell > farthest_[piece].cell)) {
+          most = apart;
+          piece = k;
+        }
+      }
+      if (piece == members_.size()) return kNoCell;
+      const std::uint32_t cell = farthest_[piece].cell;
+      if (piece_[cell] == piece) return cell;
+      find_farthest(static_cast<std::uint32_t>(piece));  // that cell was taken by another piece
+    }
   }
 
   // A new piece takes every cell that is nearer to its seed than to any before.
   void add(std::uint32_t seed) {
     const auto piece = static_cast<std::uint32_t>(members_.size());
     members_.push_back(grow(seed, piece));
-    farthest_.push_back(kNoCell);
+    farthest_.emplace_back();
     find_farthest(piece);
-    for (std::uint32_t k = 0; k < piece; ++k) {
-      if (farthest_[k] != kNoCell && piece_[farthest_[k]] != k) find_farthest(k);
-    }
   }
 
  private:
@@ -147,14 +158,18 @@ class Growth {
   void find_farthest(std::uint32_t piece) {
     std::vector<std::uint32_t>& members = members_[piece];
     std::erase_if(members, [&](std::uint32_t c) { return piece_[c] != piece; });
-    std::uint32_t best = kNoCell;
+    Farthest best;
     for (const std::uint32_t c : members) {
-      if (!may_seed_[c]) continue;
-      const double more = best == kNoCell ? 1.0 : places_[c].squared - places_[best].squared;
-      if (more > 0.0 || (more == 0.0 && c > best)) best = c;
+      if (may_seed_[c]) best = std::max(best, {places_[c].squared, c});
     }
     farthest_[piece] = best;
   }
+
+  struct Farthest {
+    double squared = 0.0;
+    std::uint32_t cell = 0;
+    friend auto operator<=>(const Farthest&, const Farthest&) = default;
+  };
 
   struct Place {
     Vec3 centroid;
@@ -169,7 +184,7 @@ class Growth {
   std::array<std::vector<std::uint32_t>, static_cast<std::size_t>(kBuckets)> buckets_;
   std::vector<std::uint32_t> piece_;
   std::vector<std::vector<std::uint32_t>> members_;  // of each piece, and some that it has lost
-  std::vector<std::uint32_t> farthest_;
+  std::vector<Farthest> farthest_;  // of each piece's members, at least as far as what it still has
 };
 
 // One seed around the largest ball of every region; basins come by decreasing radius.
@@ -216,16 +231,7 @@ Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
   }
   // Then around the cell that lies farthest from all seeds, again and again.
   while (pieces.count() < kMostPieces) {
-    double most = kPieceRadius;
-    std::uint32_t seed = kNoCell;
-    for (std::size_t k = 0; k < pieces.count(); ++k) {
-      const std::uint32_t c = growth.farthest(k);
-      if (c == kNoCell) continue;
-      const double apart = growth.distance_to_seed(c) / pieces.extent[k];
-      if (apart < most || (apart == most && (seed == kNoCell || c < seed))) continue;
-      most = apart;
-      seed = c;
-    }
+    const std::uint32_t seed = growth.next_seed(pieces.extent, kPieceRadius);
     if (seed == kNoCell) break;
     add_piece(seed);
   }
