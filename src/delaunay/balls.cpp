@@ -93,19 +93,15 @@ bool inside_equatorial_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const
 }
 
 double cos_ball_angle(const DelaunayComplex& complex, std::size_t a, std::size_t b) {
-  // From the shared vertices themselves: the law of cosines over the two radii and the distance of
-  // the centres loses all digits when one ball is huge. Their mean does not depend on their order.
+  // From a shared vertex: the law of cosines over the two radii and the distance of the centres
+  // loses all digits when one ball is huge. Seen from either cell it is the one that comes first.
   const auto& neighbors = complex.neighbors[a];
   const auto slot = std::ranges::find(neighbors, static_cast<std::uint32_t>(b)) - neighbors.begin();
-  double sum = 0.0;
-  for (const int i : kFacetSlots[static_cast<std::size_t>(slot)]) {
-    const Vec3& p = complex.vertices[complex.cells[a][static_cast<std::size_t>(i)]];
-    const Vec3 to_a = complex.centers[a] - p;
-    const Vec3 to_b = complex.centers[b] - p;
-    const double lengths = std::sqrt(squared_norm(to_a) * squared_norm(to_b));
-    sum += lengths > 0.0 ? dot(to_a, to_b) / lengths : -1.0;
-  }
-  return std::clamp(sum / 3.0, -1.0, 1.0);
+  const Vec3& p = complex.vertices[complex.cells[a][slot == 0 ? 1 : 0]];
+  const Vec3 to_a = complex.centers[a] - p;
+  const Vec3 to_b = complex.centers[b] - p;
+  const double lengths = std::sqrt(squared_norm(to_a) * squared_norm(to_b));
+  return lengths > 0.0 ? std::clamp(dot(to_a, to_b) / lengths, -1.0, 1.0) : -1.0;
 }
 
 double cos_hull_angle(const DelaunayComplex& complex, std::size_t cell, int slot) {

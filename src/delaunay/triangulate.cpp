@@ -33,89 +33,79 @@ using Quad = std::array<std::uint32_t, 4>;
 constexpr std::size_t kParallelThreshold = 50000;
 constexpr int kLockGridSize = 50;
 
-// Cells in any order: vertices, ascending but for the orientation, and neighbours opposite them.
-struct RawCells {
-  std::vector<Quad> vertices;
-  std::vector<Quad> neighbors;
-};
-
-// Brings a cell's vertices, and the neighbours opposite them, into ascending order, the last two
-// swapped where that is needed to stay positively oriented, as CGAL's cells are.
-void make_canonical(Quad& vertices, Quad& neighbors) {
+// The slots of a cell such that its vertices ascend, the last two exchanged where that is needed to
+// keep the cell positively oriented, as CGAL's cells are.
+std::array<std::uint8_t, 4> canonical_slots(const Quad& vertices) {
+  std::array<std::uint8_t, 4> slots{0, 1, 2, 3};
   bool odd = false;
   const auto exchange = [&](int i, int j) {
-    std::swap(vertices[i], vertices[j]);
-    std::swap(neighbors[i], neighbors[j]);
+    std::swap(slots[i], slots[j]);
     odd = !odd;
   };
   for (int i = 1; i < 4; ++i) {
-    for (int j = i; j > 0 && vertices[j] < vertices[j - 1]; --j) exchange(j, j - 1);
+    for (int j = i; j > 0 && vertices[slots[j]] < vertices[slots[j - 1]]; --j) exchange(j, j - 1);
   }
   if (odd) exchange(2, 3);
+  return slots;
 }
 
-// CGAL's cells lie scattered in memory: one pass numbers those that are finite, all else goes by
-// ranges of them.
-template <typename Delaunay>
-RawCells copy_cells(const Delaunay& delaunay, int threads) {
-  std::vector<typename Delaunay::Cell_handle> cells;
-  cells.reserve(delaunay.tds().cells().size());
-  const auto infinite = delaunay.infinite_vertex();
-  for (auto it = delaunay.all_cells_begin(); it != delaunay.all_cells_end(); ++it) {
-    const bool finite = !it->has_vertex(infinite);
-    it->info() = finite ? static_cast<std::uint32_t>(cells.size()) : kNoCell;
-    if (finite) cells.push_back(it);
-  }
-  RawCells raw;
-  raw.vertices.resize(cells.size());
-  raw.neighbors.resize(cells.size());
-  parallel_ranges(cells.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      for (int i = 0; i < 4; ++i) {
-        raw.vertices[c][i] = cells[c]->vertex(i)->info();
-        raw.neighbors[c][i] = cells[c]->neighbor(i)->info();
-      }
-      make_canonical(raw.vertices[c], raw.neighbors[c]);
-    }
-  });
-  return raw;
+Quad take(const Quad& values, const std::array<std::uint8_t, 4>& slots) {
+  return {values[slots[0]], values[slots[1]], values[slots[2]], values[slots[3]]};
 }
 
 // Canonical cells by their vertices: a counting sort by the smallest, which comes first, small
-// sorts inside. Says which cell comes where.
-std::vector<std::uint32_t> canonical_order(const std::vector<Quad>& vertices,
-                                           std::size_t vertex_count, int threads) {
+// sorts inside. Says where each cell goes.
+std::vector<std::uint32_t> canonical_places(const std::vector<Quad>& vertices,
+                                            std::size_t vertex_count, int threads) {
   std::vector<std::uint32_t> begins(vertex_count + 1, 0);
   for (const Quad& cell : vertices) ++begins[cell[0] + 1];
   for (std::size_t v = 0; v < vertex_count; ++v) begins[v + 1] += begins[v];
   std::vector<std::uint32_t> order(vertices.size());
   std::vector<std::uint32_t> ends(begins.begin(), begins.end() - 1);
   for (std::uint32_t c = 0; c < vertices.size(); ++c) order[ends[vertices[c][0]]++] = c;
+  std::vector<std::uint32_t> places(vertices.size());
   parallel_ranges(vertex_count, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       std::sort(order.begin() + begins[v], order.begin() + begins[v + 1],
                 [&](std::uint32_t a, std::uint32_t b) { return vertices[a] < vertices[b]; });
+      for (std::uint32_t i = begins[v]; i < begins[v + 1]; ++i) places[order[i]] = i;
     }
   });
-  return order;
+  return places;
 }
 
-void store_cells(const RawCells& raw, DelaunayComplex& complex, int threads) {
-  const std::size_t count = raw.vertices.size();
-  const std::vector<std::uint32_t> order =
-      canonical_order(raw.vertices, complex.vertices.size(), threads);
-  std::vector<std::uint32_t> place(count);
-  for (std::uint32_t c = 0; c < count; ++c) place[order[c]] = c;
-  complex.cells.resize(count);
-  complex.neighbors.resize(count);
-  parallel_ranges(count, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      complex.cells[c] = raw.vertices[order[c]];
-      for (int i = 0; i < 4; ++i) {
-        const std::uint32_t neighbor = raw.neighbors[order[c]][i];
-        complex.neighbors[c][i] = neighbor == kNoCell ? kNoCell : place[neighbor];
-      }
-    }
+// CGAL's cells lie scattered in memory: they are gone through once for their vertices, which say
+// where each belongs, and once for their neighbours.
+template <typename Delaunay>
+void copy_cells(const Delaunay& delaunay, DelaunayComplex& complex, int threads) {
+  std::vector<typename Delaunay::Cell_handle> cells;
+  cells.reserve(delaunay.tds().cells().size());
+  const auto infinite = delaunay.infinite_vertex();
+  for (auto it = delaunay.all_cells_begin(); it != delaunay.all_cells_end(); ++it) {
+    it->info() = kNoCell;
+    if (!it->has_vertex(infinite)) cells.push_back(it);
+  }
+  const auto each = [&](const auto& visit) {
+    parallel_ranges(cells.size(), threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) visit(c);
+    });
+  };
+  std::vector<Quad> vertices(cells.size());
+  std::vector<std::array<std::uint8_t, 4>> slots(cells.size());
+  each([&](std::size_t c) {
+    for (int i = 0; i < 4; ++i) vertices[c][i] = cells[c]->vertex(i)->info();
+    slots[c] = canonical_slots(vertices[c]);
+    vertices[c] = take(vertices[c], slots[c]);
+  });
+  const auto places = canonical_places(vertices, complex.vertices.size(), threads);
+  each([&](std::size_t c) { cells[c]->info() = places[c]; });
+  complex.cells.resize(cells.size());
+  complex.neighbors.resize(cells.size());
+  each([&](std::size_t c) {
+    Quad neighbors{};
+    for (int i = 0; i < 4; ++i) neighbors[i] = cells[c]->neighbor(i)->info();
+    complex.cells[places[c]] = vertices[c];
+    complex.neighbors[places[c]] = take(neighbors, slots[c]);
   });
 }
 
@@ -130,7 +120,7 @@ void insert_and_copy(Delaunay& delaunay, DelaunayComplex& complex, int threads,
   delaunay.insert(points.begin(), points.end());
   if (progress != nullptr) progress->check();
   complex.dimension = delaunay.dimension();
-  if (complex.dimension == 3) store_cells(copy_cells(delaunay, threads), complex, threads);
+  if (complex.dimension == 3) copy_cells(delaunay, complex, threads);
 }
 
 void triangulate_parallel(DelaunayComplex& complex, int threads, const Progress* progress) {

@@ -60,6 +60,7 @@ Neighborhoods find_neighborhoods(std::span<const Vec3> points, std::size_t size,
 std::vector<std::uint32_t> find_nearest(std::span<const Vec3> points, std::span<const Vec3> queries,
                                         int threads) {
   std::vector<std::uint32_t> nearest(queries.size());
+  if (queries.empty()) return nearest;
   const PointAdaptor adaptor(points);
   const Tree tree(3, adaptor);
   parallel_ranges(queries.size(), threads, [&](std::size_t begin, std::size_t end) {
