@@ -95,38 +95,40 @@ class Growth {
   std::uint32_t next_seed(const std::vector<double>& extent, double least) {
     while (true) {
       double most = least;
-      std::size_t piece = members_.size();
-      for (std::size_t k = 0; k < members_.size(); ++k) {
+      std::uint32_t piece = kNoBasin;
+      for (std::uint32_t k = 0; k < farthest_.size(); ++k) {
         const double apart = std::sqrt(farthest_[k].squared) / extent[k];
-        const bool tied = apart == most && piece < members_.size();
+        const bool tied = apart == most && piece != kNoBasin;
         if (apart > most || (tied && farthest_[k].cell > farthest_[piece].cell)) {
           most = apart;
           piece = k;
         }
       }
-      if (piece == members_.size()) return kNoCell;
-      const std::uint32_t cell = farthest_[piece].cell;
-      if (piece_[cell] == piece) return cell;
-      find_farthest(static_cast<std::uint32_t>(piece));  // that cell was taken by another piece
+      if (piece == kNoBasin) return kNoCell;
+      if (piece_[farthest_[piece].cell] == piece) return farthest_[piece].cell;
+      forget_lost(piece);
     }
   }
 
-  // A new piece takes every cell that is nearer to its seed than to any before.
-  void add(std::uint32_t seed) {
-    const auto piece = static_cast<std::uint32_t>(members_.size());
-    members_.push_back(grow(seed, piece));
-    farthest_.emplace_back();
-    find_farthest(piece);
+  // A new piece takes every cell that is nearer to its seed than to any before; the first of a
+  // region takes all that it reaches, at about `reach` from the seed.
+  void add(std::uint32_t seed, double reach) {
+    const auto piece = static_cast<std::uint32_t>(farthest_.size());
+    std::vector<Candidate>& candidates = candidates_.emplace_back();
+    for (const std::uint32_t c : grow(seed, piece, reach)) {
+      if (may_seed_[c]) candidates.push_back({places_[c].squared, c});
+    }
+    farthest_.push_back(farthest_of(candidates));
   }
 
  private:
   // Cells wait in buckets, the nearest first, and are visited again when a way that strays less is
   // found to them; in the end each holds the least, in whatever order they were visited.
-  std::vector<std::uint32_t> grow(std::uint32_t seed, std::uint32_t piece) {
+  std::vector<std::uint32_t> grow(std::uint32_t seed, std::uint32_t piece, double reach) {
     const Vec3 center = places_[seed].centroid;
-    // Hardly anything is taken from farther than the seed lies from the one before; the first has
-    // one bucket.
-    const double scale = kBuckets / places_[seed].squared;
+    // Hardly anything is taken from farther than the seed lies from the one before.
+    const double farthest = std::min(places_[seed].squared, reach * reach);
+    const double scale = farthest > 0.0 ? kBuckets / farthest : 0.0;
     const auto bucket_of = [&](double squared) {
       return static_cast<std::size_t>(std::min(scale * squared, kBuckets - 1.0));
     };
@@ -154,22 +156,22 @@ class Growth {
     return taken;
   }
 
-  // Forgets the members that the piece has lost.
-  void find_farthest(std::uint32_t piece) {
-    std::vector<std::uint32_t>& members = members_[piece];
-    std::erase_if(members, [&](std::uint32_t c) { return piece_[c] != piece; });
-    Farthest best;
-    for (const std::uint32_t c : members) {
-      if (may_seed_[c]) best = std::max(best, {places_[c].squared, c});
-    }
-    farthest_[piece] = best;
+  struct Candidate {
+    double squared = 0.0;  // of the distance to the seed
+    std::uint32_t cell = 0;
+    friend auto operator<=>(const Candidate&, const Candidate&) = default;
+  };
+
+  static Candidate farthest_of(const std::vector<Candidate>& candidates) {
+    Candidate best;
+    for (const Candidate& candidate : candidates) best = std::max(best, candidate);
+    return best;
   }
 
-  struct Farthest {
-    double squared = 0.0;
-    std::uint32_t cell = 0;
-    friend auto operator<=>(const Farthest&, const Farthest&) = default;
-  };
+  void forget_lost(std::uint32_t piece) {
+    std::erase_if(candidates_[piece], [&](const Candidate& c) { return piece_[c.cell] != piece; });
+    farthest_[piece] = farthest_of(candidates_[piece]);
+  }
 
   struct Place {
     Vec3 centroid;
@@ -183,8 +185,8 @@ class Growth {
   std::vector<Place> places_;
   std::array<std::vector<std::uint32_t>, static_cast<std::size_t>(kBuckets)> buckets_;
   std::vector<std::uint32_t> piece_;
-  std::vector<std::vector<std::uint32_t>> members_;  // of each piece, and some that it has lost
-  std::vector<Farthest> farthest_;  // of each piece's members, at least as far as what it still has
+  std::vector<std::vector<Candidate>> candidates_;  // of each piece, and some that it has lost
+  std::vector<Candidate> farthest_;                 // of each piece's candidates
 };
 
 // One seed around the largest ball of every region; basins come by decreasing radius.
@@ -220,7 +222,7 @@ Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
     pieces.region.push_back(region_of_basin[basin]);
     pieces.extent.push_back(extents[object_of_basin[basin]]);
     pieces.seed.push_back(cell);
-    growth.add(seed);
+    growth.add(seed, 2.0 * pieces.extent.back());
   };
   std::vector<std::uint32_t> first_piece(basins.count(), kNoBasin);
   for (const std::uint32_t seed : region_seeds(basins, region_of_basin)) {
