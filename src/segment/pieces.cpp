@@ -142,6 +142,7 @@ class Growth {
     take(seed, 0.0);
     for (std::size_t b = 0; b < buckets_.size(); ++b) {
       for (std::size_t i = 0; i < buckets_[b].size(); ++i) {
+        prefetch(buckets_[b], i);
         const std::uint32_t c = buckets_[b][i];
         const double reached = places_[c].squared;
         if (bucket_of(reached) < b) continue;
@@ -154,6 +155,15 @@ class Growth {
       buckets_[b].clear();
     }
     return taken;
+  }
+
+  // The cells lie scattered in memory, but which ones come next is known.
+  void prefetch(const std::vector<std::uint32_t>& queue, std::size_t at) const {
+    if (at + 8 < queue.size()) __builtin_prefetch(&inside_.neighbors[queue[at + 8]]);
+    if (at + 4 >= queue.size()) return;
+    for (const std::uint32_t d : inside_.neighbors[queue[at + 4]]) {
+      if (d != kNoCell) __builtin_prefetch(&places_[d]);
+    }
   }
 
   struct Candidate {
