@@ -1,0 +1,87 @@
+#include "segment/sight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "delaunay/balls.hpp"
+#include "segment/test_stages.hpp"
+
+namespace morsel {
+namespace {
+
+using shapes::Stages;
+
+// The share of a segment that lies in one cell: what its four planes leave of it.
+double share_in_cell(const DelaunayComplex& complex, std::size_t cell, const Vec3& start,
+                     const Vec3& way) {
+  double enter = 0.0;
+  double leave = 1.0;
+  for (const auto& slots : kFacetSlots) {
+    const auto corner = [&](std::size_t k) {
+      return complex.vertices[complex.cells[cell][static_cast<std::size_t>(slots[k])]];
+    };
+    const Vec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0));
+    const double depth = dot(normal, corner(0) - start);
+    const double speed = dot(normal, way);
+    if (speed > 0.0) leave = std::min(leave, depth / speed);
+    if (speed < 0.0) enter = std::max(enter, depth / speed);
+    if (speed == 0.0 && depth < 0.0) return 0.0;
+  }
+  return std::max(leave - enter, 0.0);
+}
+
+// How far the segment between two cells runs outside, over all cells there are.
+double length_outside(const Stages& s, std::uint32_t from, std::uint32_t to) {
+  const Vec3 start = cell_centroid(s.complex, from);
+  const Vec3 way = cell_centroid(s.complex, to) - start;
+  double inside = 0.0;
+  for (std::size_t c = 0; c < s.complex.cell_count(); ++c) {
+    if (s.interior.side[c] == CellSide::kInner) inside += share_in_cell(s.complex, c, start, way);
+  }
+  return (1.0 - inside) * norm(way);
+}
+
+TEST(SightTest, SegmentsStayInsideWhereTheirCellsSaySo) {
+  const Stages s = shapes::run_stages(shapes::noisy(shapes::torus(1500, 2.0, 0.7), 0.01));
+  Pieces pieces;
+  for (std::uint32_t c = 0; c < s.complex.cell_count(); c += 97) {
+    if (s.interior.side[c] == CellSide::kInner) pieces.seed.push_back(c);
+  }
+  pieces.region.assign(pieces.seed.size(), 0);
+  pieces.extent.assign(pieces.seed.size(), 100.0);  // every pair is near enough to be looked at
+  constexpr double kSpacing = 0.1;
+  const SightTable table = find_sight(s.complex, s.interior, pieces, kSpacing, 2);
+  std::size_t seen = 0;
+  std::size_t pairs = 0;
+  for (std::size_t a = 0; a < pieces.count(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const double outside = length_outside(s, pieces.seed[a], pieces.seed[b]);
+      if (std::abs(outside - 0.5 * kSpacing) < 1e-6) continue;  // rounding decides
+      const float found = table.seen[a * pieces.count() + b];
+      EXPECT_EQ(found != 0.0F, outside < 0.5 * kSpacing) << a << " " << b << " " << outside;
+      EXPECT_EQ(found, table.seen[b * pieces.count() + a]);
+      seen += found != 0.0F ? 1 : 0;
+      ++pairs;
+    }
+  }
+  EXPECT_GT(seen, 50U);
+  EXPECT_GT(pairs - seen, 50U);
+}
+
+TEST(SightTest, FarPairsDoNotCount) {
+  const Stages s = shapes::run_stages(shapes::noisy(shapes::torus(1500, 2.0, 0.7), 0.01));
+  Pieces pieces;
+  pieces.seed = {s.basins.maximum.front(), s.basins.maximum.back()};
+  pieces.region = {0, 0};
+  const double apart =
+      distance(cell_centroid(s.complex, pieces.seed[0]), cell_centroid(s.complex, pieces.seed[1]));
+  pieces.extent.assign(2, apart / 0.7);
+  const SightTable table = find_sight(s.complex, s.interior, pieces, 0.1, 1);
+  EXPECT_EQ(table.weight[1], 0.0F);
+  EXPECT_EQ(table.weight[0], 1.0F);
+}
+
+}  // namespace
+}  // namespace morsel
