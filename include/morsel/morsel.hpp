@@ -79,6 +79,10 @@ struct Segmentation {
   return make_signature(segmentation.complex, segmentation.basins, segmentation.parts, threads);
 }
 
+/// The same cloud cut otherwise: parts, labels and message as segment() gives them with `cut`, the
+/// rest as it was. What bounds no solid stays as it is. Cost: O(p + n). Throws Error(kUsage).
+[[nodiscard]] Segmentation recut(Segmentation segmentation, const CutOptions& cut);
+
 /// The report as JSON text: version, options, counts of every stage, parts, merge levels, costs.
 /// Its schema is docs/report.md. `source` names the input.
 [[nodiscard]] std::string report_json(const Segmentation& segmentation,

@@ -148,4 +148,14 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
   return s;
 }
 
+Segmentation recut(Segmentation segmentation, const CutOptions& cut) {
+  cut.check();
+  Segmentation& s = segmentation;
+  if (s.verdict != Verdict::kSolid) return segmentation;
+  s.parts = morsel::cut(s.tree, cut);
+  s.labels = s.parts.part_of_point;
+  s.message = describe(s);
+  return segmentation;
+}
+
 }  // namespace morsel

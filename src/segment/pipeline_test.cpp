@@ -150,6 +150,22 @@ TEST(SegmentTest, OtherCutsOfTheSameTree) {
   EXPECT_EQ(segment(points, options).labels, cut(s.tree, options.cut).part_of_point);
 }
 
+TEST(SegmentTest, CutAgainIsAsCutAtFirst) {
+  const Points points = shapes::dumbbell(6000, 0.35);
+  const Segmentation natural = segment(points);
+  SegmentOptions options;
+  for (const std::size_t parts : {1U, 2U, 5U}) {
+    options.cut.parts = parts;
+    const Segmentation first = segment(points, options);
+    const Segmentation again = recut(natural, options.cut);
+    EXPECT_EQ(again.labels, first.labels);
+    EXPECT_EQ(again.message, first.message);
+  }
+  const Segmentation sheet = segment(shapes::Points(10));
+  EXPECT_EQ(recut(sheet, options.cut).message, sheet.message);
+  EXPECT_THROW((void)recut(natural, {.parts = 0, .merge_ratio = {}}), Error);
+}
+
 TEST(SegmentTest, PaperMethodRuns) {
   const Points points = shapes::dumbbell(6000, 0.35);
   SegmentOptions options;
