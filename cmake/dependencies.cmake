@@ -17,3 +17,20 @@ find_library(LZF_LIBRARY lzf REQUIRED)
 if(MORSEL_BUILD_TESTS)
   find_package(GTest REQUIRED)
 endif()
+
+# Looked for anew each time under AUTO: what was absent for `make demo` is there for `make test`.
+# A sanitizer would have to be loaded into Python before everything else.
+if(MORSEL_BUILD_PYTHON STREQUAL "AUTO" AND NOT MORSEL_SANITIZE)
+  set(python_need QUIET)
+elseif(MORSEL_BUILD_PYTHON STREQUAL "AUTO" OR NOT MORSEL_BUILD_PYTHON)
+  return()
+else()
+  set(python_need REQUIRED)
+endif()
+# Debian's Python, whose packages are installed, rather than another one on the PATH.
+find_program(MORSEL_PYTHON python3 HINTS /usr/bin DOC "Python that the package is built for")
+set(Python_EXECUTABLE ${MORSEL_PYTHON})
+find_package(Python 3.11 ${python_need} COMPONENTS Interpreter Development.Module)
+if(Python_FOUND)
+  find_package(pybind11 2.10 ${python_need} CONFIG)
+endif()

@@ -3,6 +3,7 @@
 # when nothing is missing.
 #   scripts/install-dependencies.sh          what building, the tests and the demo need
 #   scripts/install-dependencies.sh --lint   also what `make lint` needs
+#   scripts/install-dependencies.sh --python also what the Python package needs
 #   scripts/install-dependencies.sh --test   also what `make test` needs
 #   scripts/install-dependencies.sh --dev    also what every other target needs
 set -euo pipefail
@@ -15,13 +16,16 @@ packages=(
 # Node.js builds the viewer; one that did not come from Debian brings its npm along.
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then packages+=(nodejs npm); fi
 lint=(clang-format clang-tidy-16 shellcheck) # 14, the default, cannot parse <ranges>
+python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
+test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest mypy)
 case "${1:-}" in
   "") ;;
   --lint) packages+=("${lint[@]}") ;;
-  --test) packages+=("${lint[@]}" chromium) ;;
-  --dev) packages+=("${lint[@]}" chromium doxygen) ;;
+  --python) packages+=("${python[@]}") ;;
+  --test) packages+=("${test[@]}") ;;
+  --dev) packages+=("${test[@]}" doxygen) ;;
   *)
-    echo "usage: $0 [--lint|--test|--dev]" >&2
+    echo "usage: $0 [--lint|--python|--test|--dev]" >&2
     exit 2
     ;;
 esac

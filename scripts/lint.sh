@@ -13,7 +13,7 @@ echo "layers"
 python3 tests/check_layers.py
 
 echo "shellcheck"
-find scripts .ci tests -type f \( -name '*.sh' -o -path '.ci/run' \) -print0 | xargs -0 shellcheck
+find scripts .ci tests python -type f \( -name '*.sh' -o -path '.ci/run' \) -print0 | xargs -0 shellcheck
 
 [[ ${1-} == --quick ]] && exit 0
 

@@ -4,6 +4,7 @@
 - src/<module> includes "module/…" only of modules named at or before it in MORSEL_MODULES.
 - Only src/delaunay/triangulate.cpp includes CGAL's Delaunay triangulation, and the benchmark that
   times CGAL alone beside it.
+- python/src includes the standard library, <morsel/…>, pybind11 and its own headers alone.
 - Public headers include the standard library and <morsel/…> alone, and each begins #pragma once.
 - Every module has a test beside its sources.
 - No committed file names the folder that the maintainers' own data lives in.
@@ -83,6 +84,15 @@ def check_public_headers(root):
                 yield f"{where}:{line}: a public header must not include {name}"
 
 
+def check_python_bindings(root):
+    folder = root / "python" / "src"
+    for path in sources(folder):
+        for line, quoted, name in includes(path):
+            own = quoted and (folder / name).exists()
+            if not own and not name.startswith(("morsel/", "pybind11/")) and not STANDARD.match(name):
+                yield f"{path.relative_to(root)}:{line}: python/src must not include {name}"
+
+
 def check_tests_beside_sources(root, order):
     for module in order:
         folder = root / "src" / module
@@ -103,7 +113,7 @@ def check(root):
     """All findings, a line each."""
     order = modules(root)
     return [*check_module_order(root, order), *check_modules_are_listed(root, order),
-            *check_triangulation(root), *check_public_headers(root),
+            *check_triangulation(root), *check_public_headers(root), *check_python_bindings(root),
             *check_tests_beside_sources(root, order), *check_no_outside_data(root)]
 
 

@@ -53,6 +53,12 @@ class CheckLayers(unittest.TestCase):
         self.write("include/morsel/c.hpp", "#pragma once\n#include <Eigen/Core>\n")
         self.assert_one("include/morsel/c.hpp:2: a public header must not include Eigen/Core")
 
+    def test_bindings_reach_inside(self):
+        self.write("python/src/a.hpp", "")
+        self.write("python/src/a.cpp", '#include <morsel/a.hpp>\n#include <pybind11/stl.h>\n'
+                                       '#include <memory>\n#include "a.hpp"\n#include "base/x.hpp"\n')
+        self.assert_one("python/src/a.cpp:5: python/src must not include base/x.hpp")
+
     def test_no_pragma_once(self):
         self.write("include/morsel/c.hpp", "")
         self.assert_one("include/morsel/c.hpp: lacks #pragma once")

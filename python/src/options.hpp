@@ -1,0 +1,19 @@
+// Options of the library from plain values of Python.
+#pragma once
+
+#include <morsel/match.hpp>
+#include <morsel/morsel.hpp>
+#include <optional>
+#include <string>
+
+namespace morsel::python {
+
+/// "default" or "paper". Throws Error(kUsage).
+[[nodiscard]] Method method_of(const std::string& name);
+
+/// How to segment; the cut is set apart. `denoise` none: the program decides.
+/// Throws Error(kUsage) that names the value and its range.
+[[nodiscard]] SegmentOptions segment_options(const std::string& method, std::optional<int> denoise,
+                                             int threads);
+
+}  // namespace morsel::python

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Installs the package with pip, offline, into a fresh environment from a copy of the tree, takes
+# the copy away and uses the package from another folder. What BUILD has compiled is not compiled
+# again.
+#   check_wheel.sh BUILD PYTHON
+set -euo pipefail
+
+build=$1 python=$2
+source=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# No index, no cache: whatever pip wanted to fetch would fail.
+export PIP_NO_INDEX=1 PIP_NO_CACHE_DIR=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PYTHONDONTWRITEBYTECODE=1
+unset PYTHONPATH
+
+mkdir "$work/tree"
+cp -r "$source"/{pyproject.toml,CMakeLists.txt,LICENSE,docs,python} "$work/tree"
+"$python" -m venv --system-site-packages "$work/env"
+for copy in one two; do
+  "$work/env/bin/python" -m pip wheel --quiet --no-deps --wheel-dir "$work/$copy" \
+    --config-settings build-dir="$build" "$work/tree"
+done
+cmp "$work"/one/*.whl "$work"/two/*.whl
+rm -rf "$work/two"
+(cd "$work/tree" && "$work/env/bin/python" -m pip install --quiet \
+  --config-settings build-dir="$build" .)
+rm -rf "$work/tree"
+
+cd "$work"
+"$work/env/bin/python" - "$work/env" <<'PROGRAM'
+import importlib.metadata
+import sys
+
+import numpy as np
+
+import morsel
+
+assert morsel.__file__.startswith(sys.argv[1]), morsel.__file__
+assert importlib.metadata.version("morsel") == morsel.__version__
+directions = np.random.default_rng(1).normal(size=(2000, 3))
+ball = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+print(morsel.segment(ball), "with morsel", morsel.__version__)
+PROGRAM
+# Nothing of the build is needed at run time.
+module=$(find "$work/env" -name '_morsel*.so')
+if readelf -d "$module" | grep -E 'RPATH|RUNPATH|libmorsel'; then exit 1; fi
+"$work/env/bin/python" -m pip uninstall --quiet --yes morsel
