@@ -15,7 +15,7 @@ namespace morsel::python {
 
 std::shared_ptr<const Segmentation> CutShape::segmentation() const {
   if (is_first) return whole;
-  return std::make_shared<const Segmentation>(recut(*whole, options.cut, options.threads));
+  return std::make_shared<const Segmentation>(recut(*whole, options.cut));
 }
 
 const std::vector<int>& CutShape::labels() const {
@@ -111,7 +111,7 @@ py::tuple findings_of(const Shape& shape) {
     const std::shared_ptr<const Segmentation> segmentation = shape->segmentation();
     message = segmentation->message;
     report = report_json(*segmentation, shape->options, "");
-    signature = encode(segmentation->signature);
+    signature = encode(make_signature(*segmentation, shape->options.threads));
   });
   return py::make_tuple(
       message, report,
