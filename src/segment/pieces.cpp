@@ -199,16 +199,26 @@ class Growth {
   std::vector<Candidate> farthest_;                 // of each piece's candidates
 };
 
-// One seed around the largest ball of every region; basins come by decreasing radius.
-std::vector<std::uint32_t> region_seeds(const Basins& basins,
+// Places in `inside` of the largest ball of every region; basins come by decreasing radius.
+std::vector<std::uint32_t> region_seeds(const Inside& inside, const Basins& basins,
                                         const std::vector<std::uint32_t>& region_of_basin) {
   std::vector<std::uint32_t> seeds;
-  std::vector<bool> seen(basins.count(), false);
   for (std::uint32_t b = 0; b < basins.count(); ++b) {
-    if (!seen[region_of_basin[b]]) seeds.push_back(basins.maximum[b]);
-    seen[region_of_basin[b]] = true;
+    if (region_of_basin[b] < seeds.size()) continue;
+    const auto found = std::ranges::lower_bound(inside.cells, basins.maximum[b]);
+    seeds.push_back(static_cast<std::uint32_t>(found - inside.cells.begin()));
   }
   return seeds;
+}
+
+// Cells along the surface, with balls no larger than the spacing, are no seeds.
+std::vector<bool> find_possible_seeds(const DelaunayComplex& complex, const Inside& inside,
+                                      double spacing) {
+  std::vector<bool> may_seed(inside.cells.size());
+  for (std::size_t i = 0; i < may_seed.size(); ++i) {
+    may_seed[i] = complex.radii[inside.cells[i]] > 1.2 * spacing;
+  }
+  return may_seed;
 }
 
 }  // namespace
@@ -219,12 +229,7 @@ Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
                      int threads) {
   const Inside inside = find_inside(complex, basins, region_of_basin, threads);
   const std::vector<double> extents = object_extents(inside, basins, object_of_basin);
-  // Cells along the surface, with balls no larger than the spacing, are no seeds.
-  std::vector<bool> may_seed(inside.cells.size());
-  for (std::size_t i = 0; i < may_seed.size(); ++i) {
-    may_seed[i] = complex.radii[inside.cells[i]] > 1.2 * spacing;
-  }
-  Growth growth(inside, std::move(may_seed));
+  Growth growth(inside, find_possible_seeds(complex, inside, spacing));
   Pieces pieces;
   const auto add_piece = [&](std::uint32_t seed) {
     const std::uint32_t cell = inside.cells[seed];
@@ -234,13 +239,8 @@ Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
     pieces.seed.push_back(cell);
     growth.add(seed, 2.0 * pieces.extent.back());
   };
-  std::vector<std::uint32_t> first_piece(basins.count(), kNoBasin);
-  for (const std::uint32_t seed : region_seeds(basins, region_of_basin)) {
-    first_piece[region_of_basin[basins.basin_of_cell[seed]]] =
-        static_cast<std::uint32_t>(pieces.count());
-    add_piece(static_cast<std::uint32_t>(std::ranges::lower_bound(inside.cells, seed) -
-                                         inside.cells.begin()));
-  }
+  // The first pieces have the numbers of their regions.
+  for (const std::uint32_t seed : region_seeds(inside, basins, region_of_basin)) add_piece(seed);
   // Then around the cell that lies farthest from all seeds, again and again.
   while (pieces.count() < kMostPieces) {
     const std::uint32_t seed = growth.next_seed(pieces.extent, kPieceRadius);
@@ -252,8 +252,7 @@ Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
   for (std::size_t i = 0; i < inside.cells.size(); ++i) {
     const std::uint32_t c = inside.cells[i];
     const std::uint32_t piece = growth.piece_of_cell()[i];
-    pieces.piece_of_cell[c] =
-        piece != kNoBasin ? piece : first_piece[region_of_basin[basins.basin_of_cell[c]]];
+    pieces.piece_of_cell[c] = piece != kNoBasin ? piece : region_of_basin[basins.basin_of_cell[c]];
   }
   return pieces;
 }

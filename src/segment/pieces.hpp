@@ -18,7 +18,7 @@ struct Pieces {
   [[nodiscard]] std::size_t count() const { return region.size(); }
 };
 
-/// `region_of_basin` groups the basins that no neck separates, numbered from 0;
+/// `region_of_basin` groups the basins that no neck separates, numbered from 0 by their first basins;
 /// `object_of_basin` those that touch at all, by any number. `spacing` is the points' mean λ.
 /// Seeds are chosen farthest first through the inside, so the pieces depend on the shape alone, not
 /// on its pose or density. Cost: O(c log p) for p pieces.
