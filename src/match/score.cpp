@@ -21,18 +21,6 @@ BlockSums block_sums(const std::uint8_t* a, const std::uint8_t* b) {
   return sums;
 }
 
-double table_distance(const BlockSums& sums, std::uint8_t solidity_a, std::uint8_t solidity_b) {
-  const double inside = static_cast<double>(solidity_a * solidity_b) / (255.0 * 255.0);
-  double total = 0.0;
-  double weights = 0.0;
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    const double weight = kTableBlocks[k].source == TableSource::kInside ? inside : 1.0;
-    total += weight * (static_cast<double>(sums[k]) / kTableBlocks[k].unit);
-    weights += weight;
-  }
-  return total / weights;
-}
-
 std::array<std::uint8_t, kTableSize> tables_of(const Signature& signature) {
   std::array<std::uint8_t, kTableSize> tables{};
   std::copy_n(signature.tables.begin(), std::min(signature.tables.size(), kTableSize),

@@ -18,8 +18,18 @@ using BlockSums = std::array<std::uint32_t, kTableBlocks.size()>;
 /// The mean of the blocks' distances, each in units of two unrelated shapes; tables of the inside
 /// count by the product of both solidities. Never falls when a sum rises, rounding included: a
 /// lower bound of the sums gives a lower bound of the distance.
-[[nodiscard]] double table_distance(const BlockSums& sums, std::uint8_t solidity_a,
-                                    std::uint8_t solidity_b);
+[[nodiscard]] inline double table_distance(const BlockSums& sums, std::uint8_t solidity_a,
+                                           std::uint8_t solidity_b) {
+  const double inside = static_cast<double>(solidity_a * solidity_b) / (255.0 * 255.0);
+  double total = 0.0;
+  double weights = 0.0;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const double weight = kTableBlocks[k].source == TableSource::kInside ? inside : 1.0;
+    total += weight * (static_cast<double>(sums[k]) / kTableBlocks[k].unit);
+    weights += weight;
+  }
+  return total / weights;
+}
 
 /// The tables of a signature, zeros where it has none.
 [[nodiscard]] std::array<std::uint8_t, kTableSize> tables_of(const Signature& signature);

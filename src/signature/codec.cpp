@@ -115,7 +115,7 @@ void check_frame(std::string_view bytes, const Reader& reader) {
     reader.fail("is of version " + std::to_string(version) + "; this program reads version " +
                 std::to_string(kVersion));
   }
-  const auto length = io::load_as<std::uint16_t>(bytes.data() + 6);
+  const auto length = io::load_as<std::uint16_t>(bytes.data() + kLengthAt);
   if (length != bytes.size()) {
     reader.fail("has " + std::to_string(bytes.size()) + " bytes where it says " +
                 std::to_string(length));

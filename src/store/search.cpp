@@ -25,22 +25,31 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBlockExtension = ".block";
 
+// Calls visit(info, signature) for each shape by name.
+template <class Visit>
+void each_signature(SQLite::Database& connection, const fs::path& file, const Visit& visit) {
+  SQLite::Statement statement(
+      connection, fmt::format("SELECT {}, signatures.signature FROM shapes JOIN signatures ON "
+                              "signatures.id = shapes.signature ORDER BY name",
+                              store::kShapeColumns));
+  while (statement.executeStep()) {
+    ShapeInfo info = store::read_shape(statement, file).info;
+    Signature signature = store::read_signature(statement.getColumn(7), info.name, file);
+    visit(std::move(info), std::move(signature));
+  }
+}
+
 struct NamedSignatures {
   std::vector<ShapeInfo> infos;  // by name
   std::vector<Signature> signatures;
 };
 
 NamedSignatures read_signatures(SQLite::Database& connection, const fs::path& file) {
-  SQLite::Statement statement(
-      connection, fmt::format("SELECT {}, signatures.signature FROM shapes JOIN signatures ON "
-                              "signatures.id = shapes.signature ORDER BY name",
-                              store::kShapeColumns));
   NamedSignatures all;
-  while (statement.executeStep()) {
-    all.infos.push_back(store::read_shape(statement, file).info);
-    all.signatures.push_back(
-        store::read_signature(statement.getColumn(7), all.infos.back().name, file));
-  }
+  each_signature(connection, file, [&](ShapeInfo info, Signature signature) {
+    all.infos.push_back(std::move(info));
+    all.signatures.push_back(std::move(signature));
+  });
   return all;
 }
 
@@ -79,12 +88,14 @@ std::shared_ptr<const SearchBlock> open_block(const fs::path& path, std::size_t 
 }
 
 // Nothing when it cannot be written: the folder may be read-only.
-std::shared_ptr<const SearchBlock> make_block(const fs::path& file, const fs::path& path,
-                                              const NamedSignatures& all) {
-  std::vector<std::string> names;
-  for (const ShapeInfo& info : all.infos) names.push_back(info.name);
+std::shared_ptr<const SearchBlock> make_block(SQLite::Database& connection, const fs::path& file,
+                                              const fs::path& path) {
   try {
-    write_search_block(path, names, all.signatures);
+    SearchBlockWriter writer(path);
+    each_signature(connection, file, [&](const ShapeInfo& info, const Signature& signature) {
+      writer.add(info.name, signature);
+    });
+    writer.commit();
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kOutput) throw;
     return nullptr;
@@ -93,20 +104,22 @@ std::shared_ptr<const SearchBlock> make_block(const fs::path& file, const fs::pa
   return std::make_shared<const SearchBlock>(SearchBlock::open(path));
 }
 
-std::vector<LookAlike> score_all(const NamedSignatures& all, const Signature& query,
-                                 std::size_t top, const MatchOptions& options) {
-  std::vector<LookAlike> found;
-  for (std::size_t i = 0; i < all.infos.size(); ++i) {
-    found.push_back({all.infos[i], match_score(query, all.signatures[i], options)});
-  }
+std::vector<LookAlike> score_all(SQLite::Database& connection, const fs::path& file,
+                                 const Signature& query, std::size_t top,
+                                 const MatchOptions& options) {
+  std::vector<LookAlike> best;  // a heap, the worst at the front
   const auto better = [](const LookAlike& a, const LookAlike& b) {
     return a.score != b.score ? a.score > b.score : a.info.name < b.info.name;
   };
-  const std::size_t kept = std::min(top, found.size());
-  std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(),
-                    better);
-  found.resize(kept);
-  return found;
+  each_signature(connection, file, [&](ShapeInfo info, const Signature& signature) {
+    best.push_back({std::move(info), match_score(query, signature, options)});
+    std::push_heap(best.begin(), best.end(), better);
+    if (best.size() <= top) return;
+    std::pop_heap(best.begin(), best.end(), better);
+    best.pop_back();
+  });
+  std::sort_heap(best.begin(), best.end(), better);
+  return best;
 }
 
 // What the database itself says of one hit; nothing when it says anything else.
@@ -144,9 +157,10 @@ std::vector<LookAlike> Database::search(const Signature& query, std::size_t top,
       state_->block = open_block(path, static_cast<std::size_t>(count));
       state_->block_token = token;
       if (state_->block) return state_->block;
-      const NamedSignatures all = read_signatures(state_->connection, state_->file);
-      state_->block = make_block(state_->file, path, all);
-      if (!state_->block) exhaustive = score_all(all, query, top, options);
+      state_->block = make_block(state_->connection, state_->file, path);
+      if (!state_->block) {
+        exhaustive = score_all(state_->connection, state_->file, query, top, options);
+      }
       return state_->block;
     });
     if (exhaustive) return *std::move(exhaustive);
