@@ -48,4 +48,4 @@ complete -c morsel -n '__fish_seen_subcommand_from index list' -x -l tag -d 'Tag
 complete -c morsel -n '__fish_seen_subcommand_from search' -x -l top -d 'Show this many'
 complete -c morsel -n $printing -f -l json -d 'Print JSON instead of a table'
 complete -c morsel -n $scoring -f -l no-mirror -d 'A mirror image is another shape'
-complete -c morsel -n '__fish_seen_subcommand_from show' -r -F -l thumbnail -d 'Write the stored small picture'
+complete -c morsel -n '__fish_seen_subcommand_from show' -r -F -l thumbnail -d 'Draw a small picture'

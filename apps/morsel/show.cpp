@@ -94,7 +94,7 @@ int run_show(const Arguments& arguments) {
                   options);
   }
   if (!arguments.thumbnail.path.empty()) {
-    write_text(arguments.thumbnail.path, shape.data.thumbnail);
+    write_text(arguments.thumbnail.path, draw_thumbnail(shape.data.sketch));
   }
   say(arguments.json ? json_text(shape) : table(shape));
   return kDone;
@@ -110,7 +110,7 @@ void add_show(CLI::App& app, Command& chosen) {
   add_json(*command, arguments->json);
   add_output(*command, "--picture", "FILE", arguments->picture,
              "Drawing of the stored points in their parts' colours: .png .svg");
-  add_output(*command, "--thumbnail", "FILE.png", arguments->thumbnail, "The stored small picture");
+  add_output(*command, "--thumbnail", "FILE.png", arguments->thumbnail, "A small picture of it");
   command->footer(kExamples);
   command->group("Database");
   command->callback(

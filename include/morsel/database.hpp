@@ -36,8 +36,7 @@ struct ShapeData {
   std::string options;       ///< under which it was segmented, for people
   std::uint64_t points = 0;  ///< of the input
   Signature signature;
-  Sketch sketch;
-  std::string thumbnail;  ///< a small picture, the bytes of a PNG file
+  Sketch sketch;  ///< what pictures are drawn from: draw_thumbnail(), render_parts()
 };
 
 struct StoredShape {
@@ -50,7 +49,7 @@ struct StoredShape {
 [[nodiscard]] std::string content_key(std::span<const Vec3> points, const SegmentOptions& options);
 
 /// All that is stored of a segmentation. Throws Error(kInput) when there is nothing to compare: too
-/// few points, or all on one plane. Cost: O(n) and a small picture.
+/// few points, or all on one plane. Cost: O(n).
 [[nodiscard]] ShapeData make_shape_data(const Segmentation& segmentation,
                                         const SegmentOptions& options, std::string content);
 

@@ -14,7 +14,7 @@ namespace morsel {
 /// encode_sketch() stores it, so that it does not change when it is written and read.
 struct Sketch {
   Vec3 origin;                ///< of the grid that the points lie on, in the unit of the input
-  double step = 0.0;          ///< of the grid: 1/511 of the longest extent
+  double step = 0.0;          ///< of the grid: 1/255 of the longest extent
   std::vector<Vec3> points;   ///< (k, 3), at most 2000, in the unit of the input, grouped by part
   std::vector<int> parts;     ///< (k) part of each point; -1 where there is no inside
   std::vector<Merge> merges;  ///< of the parts, ascending in ratio: where coarser cuts join them
@@ -25,7 +25,7 @@ struct Sketch {
 /// The same for any order of the input points. Cost: O(n).
 [[nodiscard]] Sketch make_sketch(const Segmentation& segmentation);
 
-/// Compact bytes, about two a point: versioned, little-endian.
+/// Compact bytes, about one and a half a point: versioned, little-endian, deflated.
 [[nodiscard]] std::string encode_sketch(const Sketch& sketch);
 
 /// Throws Error(kInput) that names `name` and what is wrong with the bytes.

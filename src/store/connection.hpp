@@ -12,7 +12,9 @@
 namespace morsel::store {
 
 /// The version of the tables that this program reads and writes; schema.cpp has its history.
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
+/// The oldest one that it can bring up to date.
+inline constexpr int kOldestVersion = 2;
 
 /// Throws what SQLite said about `file` as morsel::Error.
 [[noreturn]] void rethrow(const std::filesystem::path& file, const SQLite::Exception& error);

@@ -28,7 +28,6 @@ TEST_F(DatabaseTest, WhatIsPutComesBack) {
   EXPECT_EQ(shape.data.options, data.options);
   EXPECT_EQ(shape.data.points, 1500U);
   EXPECT_EQ(shape.data.signature, data.signature);
-  EXPECT_EQ(shape.data.thumbnail, data.thumbnail);
   EXPECT_EQ(encode_sketch(shape.data.sketch), encode_sketch(data.sketch));
 }
 
@@ -165,6 +164,16 @@ TEST_F(DatabaseTest, NewerTablesAreRefused) {
     const std::string message =
         message_of(ErrorCode::kInput, [&] { (void)Database::open(file_, access); });
     EXPECT_TRUE(holds(message, "newer morsel (version 99")) << message;
+  }
+}
+
+TEST_F(DatabaseTest, TablesOfBeforeTheFirstReleaseAreRefused) {
+  create().put({"a", {}, {}, {}}, dumbbell_data());
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 1");
+  for (const Access access : {Access::kRead, Access::kWrite, Access::kCreate}) {
+    const std::string message =
+        message_of(ErrorCode::kInput, [&] { (void)Database::open(file_, access); });
+    EXPECT_TRUE(holds(message, "index its shapes into a new database")) << message;
   }
 }
 

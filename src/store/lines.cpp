@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kHeaderField = "morsel_shapes";
-constexpr int kVersion = 1;  // of the lines
+constexpr int kVersion = 2;  // of the lines
 
 std::string line_of(const ShapeInfo& info, const ShapeData& data) {
   Json json;
@@ -31,7 +31,6 @@ std::string line_of(const ShapeInfo& info, const ShapeData& data) {
   json["points"] = data.points;
   json["signature"] = Json::parse(to_json(data.signature));
   json["sketch"] = encode_base64(encode_sketch(data.sketch));
-  json["thumbnail"] = encode_base64(data.thumbnail);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -85,7 +84,6 @@ StoredShape shape_of(const std::string& line, const std::string& place) {
   shape.data.points = field<std::uint64_t>(json, "points", place);
   shape.data.signature = signature_from_json(field<Json>(json, "signature", place).dump(), place);
   shape.data.sketch = decode_sketch(bytes_field(json, "sketch", place), place + ": sketch");
-  shape.data.thumbnail = bytes_field(json, "thumbnail", place);
   return shape;
 }
 

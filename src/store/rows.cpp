@@ -50,7 +50,7 @@ struct DataBytes {
 std::int64_t checksum_of(const ShapeData& data, const DataBytes& bytes) {
   Fingerprint sum;
   sum.add(data.content).add(data.options).add(static_cast<std::int64_t>(data.points));
-  return sum.add(bytes.signature).add(bytes.sketch).add(data.thumbnail).checksum_64();
+  return sum.add(bytes.signature).add(bytes.sketch).checksum_64();
 }
 
 DataBytes bytes_of(const ShapeData& data) {
@@ -144,8 +144,7 @@ ShapeData read_data(SQLite::Statement& row, const fs::path& file, int first_colu
   data.options = column(2).getString();
   data.points = static_cast<std::uint64_t>(column(3).getInt64());
   DataBytes bytes{column(4).getString(), column(5).getString()};
-  data.thumbnail = column(6).getString();
-  if (column(7).getInt64() != checksum_of(data, bytes)) {
+  if (column(6).getInt64() != checksum_of(data, bytes)) {
     fail(file, place, "the row does not have its checksum");
   }
   const std::string name = file.string() + ": " + place;
@@ -183,14 +182,13 @@ std::int64_t insert_data(SQLite::Database& database, const ShapeData& data) {
   const DataBytes bytes = bytes_of(data);
   SQLite::Statement statement(database,
                               "INSERT INTO signatures (content, options, points, signature, "
-                              "sketch, thumbnail, checksum) VALUES (?, ?, ?, ?, ?, ?, ?)");
+                              "sketch, checksum) VALUES (?, ?, ?, ?, ?, ?)");
   statement.bind(1, data.content);
   statement.bind(2, data.options);
   statement.bind(3, static_cast<std::int64_t>(data.points));
   bind_blob(statement, 4, bytes.signature);
   bind_blob(statement, 5, bytes.sketch);
-  bind_blob(statement, 6, data.thumbnail);
-  statement.bind(7, checksum_of(data, bytes));
+  statement.bind(6, checksum_of(data, bytes));
   statement.exec();
   return database.getLastInsertRowid();
 }

@@ -24,7 +24,7 @@ inline constexpr const char* kShapeColumns =
     "shapes.id, name, class, tags, source, shapes.signature, shapes.checksum";
 /// Columns of a query whose rows read_data() takes.
 inline constexpr const char* kDataColumns =
-    "signatures.id, content, options, points, signatures.signature, sketch, thumbnail, "
+    "signatures.id, content, options, points, signatures.signature, sketch, "
     "signatures.checksum";
 
 /// Throw Error(kInput) naming the database `file` and the row that is damaged.

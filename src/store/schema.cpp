@@ -10,12 +10,14 @@
 namespace morsel::store {
 namespace {
 
-// kSteps[i] leads from version i to i + 1. A published step is never changed.
+// kSteps[0] makes the tables of the oldest version, each further step leads to the next. A
+// published step is never changed.
 //
-// Version 1. A signature is stored once for a content; a row's checksum is over its other columns
-// (rows.cpp). `token` takes a random value at every change, so that a copy of the signatures can
-// tell whether it is still the current one, also after the file was replaced by a backup.
-constexpr std::array<const char*, kSchemaVersion> kSteps{R"(
+// Version 1, with stored thumbnails, was never released. Version 2. A signature is stored once for
+// a content; a row's checksum is over its other columns (rows.cpp). `token` takes a random value at
+// every change, so that a copy of the signatures can tell whether it is still the current one, also
+// after the file was replaced by a backup.
+constexpr std::array<const char*, kSchemaVersion - kOldestVersion + 1> kSteps{R"(
 CREATE TABLE signatures (
   id INTEGER PRIMARY KEY,
   content TEXT NOT NULL UNIQUE,
@@ -23,7 +25,6 @@ CREATE TABLE signatures (
   points INTEGER NOT NULL,
   signature BLOB NOT NULL,
   sketch BLOB NOT NULL,
-  thumbnail BLOB NOT NULL,
   checksum INTEGER NOT NULL
 ) STRICT;
 CREATE TABLE shapes (
@@ -65,6 +66,13 @@ int check_version(SQLite::Database& database, const std::filesystem::path& file)
                             "program knows {}); update morsel",
                             file.string(), version, kSchemaVersion));
   }
+  if (version > 0 && version < kOldestVersion) {
+    throw Error(
+        ErrorCode::kInput,
+        fmt::format("{}: was written by an early state of morsel (version {} of the tables, "
+                    "this program knows {}); index its shapes into a new database",
+                    file.string(), version, kSchemaVersion));
+  }
   return version;
 }
 
@@ -72,8 +80,10 @@ void migrate(SQLite::Database& database, const std::filesystem::path& file) {
   if (check_version(database, file) == kSchemaVersion) return;
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   // Another process may have done it while this one waited for its turn.
-  for (int version = check_version(database, file); version < kSchemaVersion; ++version) {
-    database.exec(kSteps[static_cast<std::size_t>(version)]);
+  const int version = check_version(database, file);
+  const int done = version > 0 ? version - kOldestVersion + 1 : 0;
+  for (auto step = static_cast<std::size_t>(done); step < kSteps.size(); ++step) {
+    database.exec(kSteps[step]);
   }
   database.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
   database.exec(fmt::format("PRAGMA application_id = {}", kApplicationId));

@@ -45,7 +45,6 @@ ShapeData make_shape_data(const Segmentation& segmentation, const SegmentOptions
   data.options = options_text(options);
   data.points = segmentation.labels.size();
   data.sketch = make_sketch(segmentation);
-  data.thumbnail = draw_thumbnail(data.sketch);
   return data;
 }
 

@@ -1,5 +1,8 @@
 // From the stages of a segmentation to the little that is stored of it, and to bytes and back.
 
+#include <fmt/format.h>
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,8 +19,8 @@ namespace morsel {
 namespace {
 
 constexpr std::size_t kMostPoints = 2000;
-constexpr std::uint8_t kVersion = 1;
-constexpr int kBits = 9;  // of a coordinate
+constexpr std::uint8_t kVersion = 2;
+constexpr int kBits = 8;  // of a coordinate
 constexpr std::uint32_t kMostSteps = (1U << kBits) - 1;
 
 // The part of each point that went on to the triangulation.
@@ -97,6 +100,31 @@ std::uint32_t read_number(io::ByteReader& reader, const char* what) {
   reader.fail("a number of more than 32 bits");
 }
 
+std::string deflated(const std::string& bytes) {
+  uLongf length = compressBound(static_cast<uLong>(bytes.size()));
+  std::string result(length, '\0');
+  compress2(reinterpret_cast<Bytef*>(result.data()), &length,
+            reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()),
+            Z_BEST_COMPRESSION);
+  result.resize(length);
+  return result;
+}
+
+// The `length` bytes that deflated() was given.
+std::string inflated(const std::string& bytes, std::size_t length, const io::ByteReader& reader) {
+  constexpr std::size_t kMostShrinking = 1100;  // what the format can do at best
+  if (length > kMostShrinking * bytes.size()) reader.fail("fewer bytes than it says");
+  std::string result(length, '\0');
+  auto written = static_cast<uLongf>(length);
+  auto read = static_cast<uLong>(bytes.size());
+  const int status = uncompress2(reinterpret_cast<Bytef*>(result.data()), &written,
+                                 reinterpret_cast<const Bytef*>(bytes.data()), &read);
+  if (status != Z_OK || written != length || read != bytes.size()) {
+    reader.fail("bytes that cannot be inflated");
+  }
+  return result;
+}
+
 Vec3 read_vector(io::ByteReader& reader) {
   Vec3 v;
   for (double* x : {&v.x, &v.y, &v.z}) *x = reader.read<double>("the origin");
@@ -132,7 +160,6 @@ std::string encode_sketch(const Sketch& sketch) {
         place_of(sketch.points[i], sketch));
   }
   std::string bytes;
-  io::append_bytes(bytes, kVersion);
   append_number(bytes, static_cast<std::uint32_t>(sketch.part_count));
   append_number(bytes, static_cast<std::uint32_t>(sketch.merges.size()));
   for (const Merge& merge : sketch.merges) {
@@ -150,15 +177,21 @@ std::string encode_sketch(const Sketch& sketch) {
     for (const std::uint32_t place : group)
       append_number(bytes, place - std::exchange(last, place));
   }
-  return bytes;
+  std::string result;
+  io::append_bytes(result, kVersion);
+  append_number(result, static_cast<std::uint32_t>(bytes.size()));
+  return result + deflated(bytes);
 }
 
 Sketch decode_sketch(std::string bytes, const std::string& name) {
-  const io::Source source{name, {}, {}, std::move(bytes)};
-  io::ByteReader reader(source, 0);
-  if (const int version = reader.read<std::uint8_t>("the version"); version != kVersion) {
-    reader.fail("version " + std::to_string(version) + " of a sketch; expected 1");
+  const io::Source stored{name, {}, {}, std::move(bytes)};
+  io::ByteReader head(stored, 0);
+  if (const int version = head.read<std::uint8_t>("the version"); version != kVersion) {
+    head.fail(fmt::format("version {} of a sketch; expected {}", version, kVersion));
   }
+  const std::uint32_t length = read_number(head, "the length");
+  const io::Source source{name, {}, {}, inflated(stored.bytes.substr(head.offset()), length, head)};
+  io::ByteReader reader(source, 0);
   Sketch sketch;
   const std::uint32_t part_count = read_number(reader, "the number of parts");
   const std::uint32_t merge_count = read_number(reader, "the number of merges");

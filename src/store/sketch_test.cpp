@@ -29,7 +29,7 @@ TEST(Sketch, PointsAreThoseOfTheCloudWithTheirParts) {
   EXPECT_LE(sketch.points.size(), 2000U);
   EXPECT_GE(sketch.points.size(), 1900U);
   EXPECT_TRUE(std::is_sorted(sketch.parts.begin(), sketch.parts.end()));
-  EXPECT_NEAR(sketch.step, 6.0 / 511.0, 0.01 * sketch.step);
+  EXPECT_NEAR(sketch.step, 6.0 / 255.0, 0.01 * sketch.step);
   int same = 0;
   for (std::size_t i = 0; i < sketch.points.size(); ++i) {
     std::size_t nearest = 0;
@@ -59,7 +59,7 @@ TEST(Sketch, MergesLeadFromThePartsToOne) {
 TEST(Sketch, BytesAreShortAndComeBack) {
   const Sketch sketch = make_sketch(two_balls());
   const std::string bytes = encode_sketch(sketch);
-  EXPECT_LT(static_cast<double>(bytes.size()), 2.5 * static_cast<double>(sketch.points.size()));
+  EXPECT_LT(static_cast<double>(bytes.size()), 1.8 * static_cast<double>(sketch.points.size()));
   const Sketch back = decode_sketch(bytes, "test");
   EXPECT_EQ(back.points, sketch.points);
   EXPECT_EQ(back.parts, sketch.parts);
