@@ -136,7 +136,8 @@ struct Candidate {
 
 // The shapes that may be among the best. The likeliest of each group is looked at as the groups are
 // passed, so that soon few are left.
-std::vector<Candidate> find_candidates(const Mapping& file, const Query& query, BestShapes& best) {
+std::vector<Candidate> find_candidates(const Mapping& file, const Query& query, BestShapes& best,
+                                       std::size_t& looked_at) {
   std::vector<Candidate> candidates;
   Bounds bounds;
   std::size_t first = 0;
@@ -147,6 +148,7 @@ std::vector<Candidate> find_candidates(const Mapping& file, const Query& query, 
         static_cast<std::size_t>(std::min_element(bounds.begin(), end) - bounds.begin());
     if (best.may_take(bounds[likeliest])) {
       look_at(file, first + likeliest, query, best);
+      ++looked_at;
       for (std::size_t i = 0; i < group.rows; ++i) {
         if (i != likeliest && best.may_take(bounds[i]))
           candidates.push_back({bounds[i], first + i});
@@ -159,12 +161,11 @@ std::vector<Candidate> find_candidates(const Mapping& file, const Query& query, 
 
 // Looks at candidates in ascending order of their bounds. The order is made in steps, so that the
 // many that are never reached are not sorted.
-std::size_t look_ascending(const Mapping& file, std::vector<Candidate>& candidates,
-                           const Query& query, BestShapes& best) {
+void look_ascending(const Mapping& file, std::vector<Candidate>& candidates, const Query& query,
+                    BestShapes& best, std::size_t& looked_at) {
   const auto before = [](const Candidate& a, const Candidate& b) {
     return a.bound != b.bound ? a.bound < b.bound : a.index < b.index;
   };
-  std::size_t looked_at = 0;
   for (std::size_t step = 256; !candidates.empty(); step *= 4) {
     std::erase_if(candidates, [&](const Candidate& c) { return !best.may_take(c.bound); });
     // The next ones go to the end, whence they are taken.
@@ -176,13 +177,12 @@ std::size_t look_ascending(const Mapping& file, std::vector<Candidate>& candidat
     }
     std::sort(next, candidates.end(), before);
     for (auto candidate = next; candidate != candidates.end(); ++candidate) {
-      if (!best.may_take(candidate->bound)) return looked_at;
+      if (!best.may_take(candidate->bound)) return;
       look_at(file, candidate->index, query, best);
       ++looked_at;
     }
     candidates.resize(rest);
   }
-  return looked_at;
 }
 
 }  // namespace
@@ -215,8 +215,8 @@ std::vector<Hit> SearchBlock::search(const Signature& query, std::size_t k,
     }
   } else {
     const Query compared(query, options);
-    std::vector<Candidate> candidates = find_candidates(*mapping_, compared, best);
-    count = mapping_->groups().size() + look_ascending(*mapping_, candidates, compared, best);
+    std::vector<Candidate> candidates = find_candidates(*mapping_, compared, best, count);
+    look_ascending(*mapping_, candidates, compared, best, count);
   }
   if (looked_at != nullptr) *looked_at = count;
   return best.take();
