@@ -60,6 +60,7 @@ class SearchBlock {
   [[nodiscard]] std::size_t size() const;
   /// Valid as long as the block. Throws Error(kInput) when the file was damaged there.
   [[nodiscard]] std::string_view name(std::size_t index) const;
+  /// As it was written. Throws Error(kInput) when the file was damaged there.
   [[nodiscard]] Signature signature(std::size_t index) const;
 
   /// The `k` shapes of the highest scores, best first, equal scores by name: exactly what scoring
