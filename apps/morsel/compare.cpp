@@ -63,7 +63,7 @@ std::string json_text(const Subject& a, const Subject& b, const Match& match) {
   Json json;
   json["target"] = a.name;
   json["source"] = b.name;
-  json.update(Json::parse(match_json(match)));
+  json.update(Json::parse(to_json(match)));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -75,7 +75,7 @@ std::string json_text(const Answer& answer, const Arguments& arguments) {
     entry["class"] = hit.info.class_name;
     entry["tags"] = hit.info.tags;
     entry["source"] = hit.info.source;
-    entry.update(Json::parse(match_json(answer.matches[i])));
+    entry.update(Json::parse(to_json(answer.matches[i])));
     json["hits"].push_back(std::move(entry));
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

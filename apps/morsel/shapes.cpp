@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <morsel/error.hpp>
 #include <morsel/picture.hpp>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
@@ -44,30 +42,6 @@ Subject read_subject(const std::string& file, const ReadOptions& options,
                   meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
 }
 
-std::vector<Vec3> moved(const std::vector<Vec3>& points, const std::array<double, 16>& m) {
-  std::vector<Vec3> result;
-  result.reserve(points.size());
-  for (const Vec3& p : points) {
-    const auto row = [&](std::size_t r) {
-      return m[4 * r] * p.x + m[4 * r + 1] * p.y + m[4 * r + 2] * p.z + m[4 * r + 3];
-    };
-    result.push_back({row(0), row(1), row(2)});
-  }
-  return result;
-}
-
-// For each point of the source the part of the target that its own lies on, -1 for none.
-std::vector<int> parts_of_target(const std::vector<int>& parts, const Match& match) {
-  std::vector<int> result;
-  result.reserve(parts.size());
-  for (const int part : parts) {
-    const auto at = std::find_if(match.matched.begin(), match.matched.end(),
-                                 [&](const MatchedPart& pair) { return pair.source == part; });
-    result.push_back(at == match.matched.end() ? -1 : at->target);
-  }
-  return result;
-}
-
 }  // namespace
 
 Subject stored_subject(const Database& database, const std::string& name) {
@@ -99,26 +73,11 @@ Image draw_aligned(const Subject& first, const std::vector<Aligned>& others) {
   std::vector<std::string> captions{first.name};
   for (const Aligned& other : others) {
     const Sketch& sketch = other.shape->sketch;
-    cells.push_back(render_parts(moved(sketch.points, other.match.target_from_source),
-                                 parts_of_target(sketch.parts, other.match), options));
+    cells.push_back(render_parts(on_target(other.match, sketch.points),
+                                 parts_on_target(other.match, sketch.parts), options));
     captions.push_back(fmt::format("{:.3f} {}", other.match.score, other.shape->name));
   }
   return make_sheet(cells, captions, std::min(kColumns, cells.size()));
-}
-
-std::string match_json(const Match& match) {
-  nlohmann::ordered_json json;
-  json["score"] = match.score;
-  json["mirrored"] = match.mirrored;
-  json["target_from_source"] = match.target_from_source;
-  json["matched"] = nlohmann::ordered_json::array();
-  for (const MatchedPart& pair : match.matched) {
-    json["matched"].push_back(
-        {{"target", pair.target}, {"source", pair.source}, {"contribution", pair.contribution}});
-  }
-  json["unmatched_target"] = match.unmatched_target;
-  json["unmatched_source"] = match.unmatched_source;
-  return json.dump();
 }
 
 std::string join_tags(const std::vector<std::string>& tags) {

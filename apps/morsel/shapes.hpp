@@ -40,9 +40,6 @@ struct Aligned {
 };
 [[nodiscard]] Image draw_aligned(const Subject& first, const std::vector<Aligned>& others);
 
-/// The match as JSON text: score, mirrored, target_from_source, matched, unmatched.
-[[nodiscard]] std::string match_json(const Match& match);
-
 /// "name, name"
 [[nodiscard]] std::string join_tags(const std::vector<std::string>& tags);
 

@@ -7,6 +7,7 @@
 #include <morsel/signature.hpp>
 #include <morsel/vec3.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace morsel {
@@ -48,5 +49,27 @@ struct Match {
 /// The score alone, the same as match().score. Symmetric: exchanging the two gives the same bits.
 [[nodiscard]] double match_score(const Signature& a, const Signature& b,
                                  const MatchOptions& options = {});
+
+/// One of the measures that the default score is made of.
+struct ScoreTerm {
+  std::string name;       ///< "shells", "facing", "pairs", "thickness", "centricity"
+  double distance = 0.0;  ///< 0: equal; 1: as different as two unrelated shapes are on average
+  double weight = 0.0;  ///< 0 … 1, sums to 1; smaller for measures of an inside that is not there
+};
+
+/// Why two shapes score as they do: with Method::kDefault and mirroring allowed match_score() is
+/// exp(-Σ weight · distance). Empty when either has no size. Thread-safe; docs/signature.md says
+/// what each measure is.
+[[nodiscard]] std::vector<ScoreTerm> explain_score(const Signature& a, const Signature& b);
+
+/// The source's points, (n, 3) in its unit, where they lie on the target, in its unit.
+[[nodiscard]] std::vector<Vec3> on_target(const Match& match, std::span<const Vec3> points);
+
+/// For each part of the source, -1 for none, the part of the target that it lies on; -1 where there
+/// is no such part.
+[[nodiscard]] std::vector<int> parts_on_target(const Match& match, std::span<const int> parts);
+
+/// As JSON text: score, mirrored, target_from_source, matched, unmatched_target, unmatched_source.
+[[nodiscard]] std::string to_json(const Match& match);
 
 }  // namespace morsel
