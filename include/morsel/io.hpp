@@ -69,6 +69,11 @@ struct SurfaceSample {
 [[nodiscard]] PointCloud read_points(const std::filesystem::path& path,
                                      const SampleOptions& sample = {});
 
+/// As read_points() from the bytes of a file called `name`, which is in no folder: a glTF that
+/// needs another file is refused. Nothing on the disk is read. For bytes of strangers.
+[[nodiscard]] PointCloud parse_points(std::string bytes, const std::string& name,
+                                      const SampleOptions& sample = {});
+
 /// Reads XYZ text (comments, one header line, extra columns, any of space, tab, comma, semicolon
 /// as separator) from a stream; `name` stands for the file in messages. A header that names x, y
 /// and z says in which columns they are. Throws Error(kInput).

@@ -369,7 +369,10 @@ class GltfReader {
     if (uri.find(':') != std::string::npos || uri.starts_with('/')) {
       fail("a buffer is at " + in_quotes(uri) + "; expected a file beside this one");
     }
-    return load(source_.folder / percent_decoded(uri)).bytes;
+    if (!source_.folder) {
+      fail("a buffer is in another file, " + in_quotes(uri) + "; give one GLB file instead");
+    }
+    return load(*source_.folder / percent_decoded(uri)).bytes;
   }
 
   const Source& source_;

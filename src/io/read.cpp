@@ -59,19 +59,29 @@ Source load_named(const std::filesystem::path& path) {
   return path == "-" ? io::load(std::cin, "standard input") : io::load(path);
 }
 
+Geometry parse_geometry(const Source& source) {
+  Geometry geometry = parse(source, io::detect_format(source));
+  if (geometry.cloud.points.empty()) {
+    io::fail(source.name, "holds no points; expected at least one");
+  }
+  return geometry;
+}
+
 Geometry read_geometry(const std::filesystem::path& path) {
-  return guarded(io::display_name(path), [&] {
-    const Source source = load_named(path);
-    Geometry geometry = parse(source, io::detect_format(source));
-    if (geometry.cloud.points.empty()) {
-      io::fail(source.name, "holds no points; expected at least one");
-    }
-    return geometry;
-  });
+  return guarded(io::display_name(path), [&] { return parse_geometry(load_named(path)); });
 }
 
 TriangleMesh to_mesh(Geometry geometry) {
   return {std::move(geometry.cloud.points), std::move(geometry.triangles)};
+}
+
+PointCloud to_points(Geometry geometry, const SampleOptions& sample, const std::string& name) {
+  if (geometry.triangles.empty()) return std::move(geometry.cloud);
+  try {
+    return {sample_surface(to_mesh(std::move(geometry)), sample).points, {}};
+  } catch (const Error& error) {
+    throw Error(error.code(), name + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -82,13 +92,14 @@ bool is_mesh_file(const std::filesystem::path& path) {
 
 PointCloud read_points(const std::filesystem::path& path, const SampleOptions& sample) {
   sample.check();
-  Geometry geometry = read_geometry(path);
-  if (geometry.triangles.empty()) return std::move(geometry.cloud);
-  try {
-    return {sample_surface(to_mesh(std::move(geometry)), sample).points, {}};
-  } catch (const Error& error) {
-    throw Error(error.code(), io::display_name(path) + ": " + error.what());
-  }
+  return to_points(read_geometry(path), sample, io::display_name(path));
+}
+
+PointCloud parse_points(std::string bytes, const std::string& name, const SampleOptions& sample) {
+  sample.check();
+  const Source source = io::from_memory(std::move(bytes), name);
+  return guarded(source.name,
+                 [&] { return to_points(parse_geometry(source), sample, source.name); });
 }
 
 PointCloud read_xyz(std::istream& stream, const std::string& name) {

@@ -91,5 +91,27 @@ TEST_F(ReadTest, MeshesAreSampledAsAsked) {
   error_of([&] { static_cast<void>(read_points(file, {.count = 0})); }, ErrorCode::kUsage);
 }
 
+TEST(ParsePoints, ReadsBytesByTheirNameAndNoOtherFile) {
+  const PointCloud cloud = parse_points("1 2 3\n4 5 6\n", "a.xyz");
+  ASSERT_EQ(cloud.points.size(), 2U);
+  EXPECT_EQ(cloud.points[1], (Vec3{4, 5, 6}));
+  const auto failure = [](std::string bytes, const std::string& name) -> std::string {
+    try {
+      (void)parse_points(std::move(bytes), name);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_TRUE(failure("", "a\nb.ply").starts_with("a\\x0ab.ply: "));
+  const std::string gltf =
+      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+      R"("buffers":[{"byteLength":36,"uri":"../secret.bin"}]})";
+  EXPECT_NE(failure(gltf, "a.gltf").find("another file"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace morsel::io

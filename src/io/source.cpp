@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <morsel/error.hpp>
+#include <utility>
 
 namespace morsel::io {
 namespace {
@@ -99,13 +100,17 @@ Source load(const std::filesystem::path& path) {
 }
 
 Source load(std::istream& stream, const std::string& name) {
-  Source source{escaped(name), {}, {}, {}};
+  Source source{escaped(name), {}, std::filesystem::path(), {}};
   source.bytes = read_to_end(0, kMaxStreamBytes, source.name, [&](char* to, std::size_t room) {
     stream.read(to, static_cast<std::streamsize>(room));
     return static_cast<std::size_t>(stream.gcount());
   });
   if (stream.bad()) fail(source.name, "cannot read: the stream broke off");
   return source;
+}
+
+Source from_memory(std::string bytes, const std::string& name) {
+  return {escaped(name), lower_extension(name), std::nullopt, std::move(bytes)};
 }
 
 void fail(const std::string& name, const std::string& message) {

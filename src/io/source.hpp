@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,7 +14,7 @@ namespace morsel::io {
 struct Source {
   std::string name;       ///< as shown in messages, one line
   std::string extension;  ///< in lower case with its dot; empty for a stream
-  std::filesystem::path folder;
+  std::optional<std::filesystem::path> folder;  ///< of files that it refers to; none: it may not
   std::string bytes;
 };
 
@@ -24,6 +25,8 @@ struct Source {
 /// Throws Error(kInput) for a directory, a missing or unreadable file.
 [[nodiscard]] Source load(const std::filesystem::path& path);
 [[nodiscard]] Source load(std::istream& stream, const std::string& name);
+/// Of bytes that are in memory already, under the name of the file that they came from.
+[[nodiscard]] Source from_memory(std::string bytes, const std::string& name);
 
 [[noreturn]] void fail(const std::string& name, const std::string& message);
 [[noreturn]] void fail_at_line(const std::string& name, std::size_t line,
