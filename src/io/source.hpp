@@ -12,8 +12,8 @@ namespace morsel::io {
 
 /// An input read to its end. Readers get it by reference and only look at it.
 struct Source {
-  std::string name;       ///< as shown in messages, one line
-  std::string extension;  ///< in lower case with its dot; empty for a stream
+  std::string name;                             ///< as shown in messages, one line
+  std::string extension;                        ///< in lower case with its dot; empty for a stream
   std::optional<std::filesystem::path> folder;  ///< of files that it refers to; none: it may not
   std::string bytes;
 };
