@@ -16,6 +16,7 @@ export class PartView {
   private readonly stage: Stage | null;
   private readonly panel: Panel;
   private readonly canvas = make('canvas', { class: 'picture', tabindex: 0, role: 'application' });
+  private readonly thin = make('p', { class: 'thin', hidden: true });
   private readonly tip = make('div', { class: 'tip', 'aria-hidden': 'true', hidden: true });
   private readonly news = make('p', { class: 'unseen', 'aria-live': 'polite' });
   private readonly end = new AbortController();
@@ -37,7 +38,8 @@ export class PartView {
     });
     const help = uniqueId('keys');
     this.canvas.setAttribute('aria-describedby', help);
-    const stage = make('div', { class: 'stage' }, this.canvas, overlay, this.tip, this.panel.tools);
+    const { canvas, tip, thin, panel } = this;
+    const stage = make('div', { class: 'stage' }, canvas, overlay, tip, thin, panel.tools);
     this.host.append(
       make(
         'section',
@@ -50,6 +52,7 @@ export class PartView {
       ),
     );
     this.stage = this.startStage(overlay, model, stage);
+    if (this.stage) this.stage.onThin = (every) => this.sayThin(every);
     this.sizes.observe(stage);
     this.stage?.resize();
     this.listen();
@@ -72,6 +75,11 @@ export class PartView {
       stage.replaceChildren(make('p', { class: 'sorry', role: 'alert' }, sorry));
       return null;
     }
+  }
+
+  private sayThin(every: number): void {
+    this.thin.hidden = every === 1;
+    if (every > 1) setText(this.thin, `One of ${every} points is drawn while it moves.`);
   }
 
   /** Draws and writes everything anew; `news` is read out. */

@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import type { Points } from '../shape/format';
+import { spreadOrder } from './splats';
 import { findAnchors, partAt, type Placement, type Projection } from './project';
 
 // Looks down z, nearly without perspective; x and y of [-1, 1] fill the canvas.
@@ -88,4 +89,14 @@ describe('findAnchors', () => {
     const line = Array.from({ length: 100 }, (_, i) => [-0.9 + 0.018 * i, 0, 0, 0]);
     expect(findAnchors(pointsAt(line, 0.01), placementOf(1), kProjection)).toEqual([]);
   });
+});
+
+test('every beginning of the drawing order is spread over all points', () => {
+  for (const count of [0, 1, 7, 512, 5000]) {
+    const order = spreadOrder(count);
+    expect([...order].sort((a, b) => a - b)).toEqual(Array.from({ length: count }, (_, i) => i));
+  }
+  const first = [...spreadOrder(5000).slice(0, 500)].sort((a, b) => a - b);
+  const gaps = first.slice(1).map((index, i) => index - first[i]);
+  expect(Math.max(...gaps)).toBeLessThanOrEqual(17);
 });

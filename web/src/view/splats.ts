@@ -19,7 +19,7 @@ uniform mat4 projectionMatrix;
 uniform float uPixels;  // of one unit at distance 1
 uniform float uRadius;  // of the longest half axis
 uniform float uDot;     // pixels of a dot, 0: ellipses
-uniform int uEvery;     // one of so many points is a dot
+uniform float uSpread;  // radii grow by this where points are left out
 in vec3 position;
 in vec4 turn;
 in vec2 radii;
@@ -39,12 +39,11 @@ void main() {
   vId = look.a;
   vec4 at = modelViewMatrix * vec4(position * 2.0 - 1.0 + place.xyz, 1.0);
   gl_Position = projectionMatrix * at;
-  bool left_out = uDot > 0.0 && gl_VertexID % uEvery != 0;
-  if (place.w == 0.0 || left_out) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (place.w == 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   vec4 q = normalize(turn);
   mat3 view = mat3(modelViewMatrix);
   float longest = max(radii.x, radii.y);
-  float radius = uRadius * longest;
+  float radius = uRadius * longest * uSpread;
   vMajor = view * turned(q, vec3(1.0, 0.0, 0.0)) * radii.x / longest;
   vMinor = view * turned(q, vec3(0.0, 1.0, 0.0)) * radii.y / longest;
   vNormal = radii.y == 0.0 ? vec3(0.0) : view * turned(q, vec3(0.0, 0.0, 1.0));
@@ -95,18 +94,54 @@ void main() {
 `;
 
 const kDots = 10_000; // more of them hide what they surround
+const kBits = 9;
+
+/**
+ * Indices 0 … count - 1 so that every beginning of the list is spread over all of it: by their last
+ * bits, mirrored.
+ */
+export function spreadOrder(count: number): Uint32Array {
+  const order = new Uint32Array(count);
+  const step = 2 ** kBits;
+  let next = 0;
+  for (let i = 0; i < step; ++i) {
+    let first = 0;
+    for (let bit = 0; bit < kBits; ++bit) first |= ((i >> bit) & 1) << (kBits - 1 - bit);
+    for (let at = first; at < count; at += step) order[next++] = at;
+  }
+  return order;
+}
+
+// The rows of an array, `width` values each, in another order.
+function inOrder<Values extends Uint8Array | Int8Array | Uint16Array | Uint32Array>(
+  values: Values,
+  width: number,
+  order: Uint32Array,
+): Values {
+  const result = values.slice() as Values;
+  order.forEach((from, to) => {
+    for (let k = 0; k < width; ++k) result[width * to + k] = values[width * from + k];
+  });
+  return result;
+}
 
 export class Splats {
   readonly object: ThreePoints;
   private readonly material: RawShaderMaterial;
+  private readonly count: number;
 
   constructor(points: Points, table: PartTable) {
+    this.count = points.count;
+    const order = spreadOrder(points.count);
     const geometry = new BufferGeometry();
-    const piece = new BufferAttribute(points.pieces, 1);
+    const piece = new BufferAttribute(inOrder(points.pieces, 1, order), 1);
     piece.gpuType = IntType;
-    geometry.setAttribute('position', new BufferAttribute(points.positions, 3, true));
-    geometry.setAttribute('turn', new BufferAttribute(points.turns, 4, true));
-    geometry.setAttribute('radii', new BufferAttribute(points.radii, 2, true));
+    geometry.setAttribute(
+      'position',
+      new BufferAttribute(inOrder(points.positions, 3, order), 3, true),
+    );
+    geometry.setAttribute('turn', new BufferAttribute(inOrder(points.turns, 4, order), 4, true));
+    geometry.setAttribute('radii', new BufferAttribute(inOrder(points.radii, 2, order), 2, true));
     geometry.setAttribute('piece', piece);
     this.material = new RawShaderMaterial({
       glslVersion: GLSL3,
@@ -117,7 +152,7 @@ export class Splats {
         uPixels: { value: 1 },
         uRadius: { value: points.longestRadius },
         uDot: { value: 0 },
-        uEvery: { value: Math.ceil(points.count / kDots) },
+        uSpread: { value: 1 },
         uBackground: { value: new Color() },
       },
     });
@@ -125,9 +160,15 @@ export class Splats {
     this.object.frustumCulled = false;
   }
 
-  /** `pixels` of one unit at distance 1; `dot` pixels of a dot, or 0 for a closed surface. */
-  update(pixels: number, dot: number, background: Color): void {
+  /**
+   * `pixels` of one unit at distance 1; `dot` pixels of a dot, or 0 for a closed surface; one of
+   * `every` points is drawn.
+   */
+  update(pixels: number, dot: number, background: Color, every = 1): void {
     const { uniforms } = this.material;
+    const drawn = Math.ceil(this.count / every);
+    this.object.geometry.setDrawRange(0, dot > 0 ? Math.min(kDots, drawn) : drawn);
+    uniforms.uSpread.value = Math.sqrt(every);
     uniforms.uPixels.value = pixels;
     uniforms.uDot.value = dot;
     uniforms.uBackground.value.copy(background);

@@ -46,6 +46,9 @@ export interface Look {
 const kFieldOfView = 30; // degrees
 const kMostRatio = 2; // pixels of the canvas in a CSS pixel
 const kSlow = 30; // milliseconds between frames; slower ones are drawn more coarsely
+const kVerySlow = 60; // … and with fewer points
+const kMostEvery = 32;
+const kFewPoints = 10_000; // to draw fewer saves nothing
 const kNode = 0.045; // radius of a node of the part graph, drawn units
 const kMostNumbers = 40; // more of them over see-through parts hide the picture
 const kBackground = { light: [0.965, 0.97, 0.978], dark: [0.1, 0.108, 0.128] } as const;
@@ -73,6 +76,9 @@ export class Stage {
   private lastFrame = 0;
   private settle = 0;
   private coarse = false;
+  private every = 1; // one of so many points is drawn while it moves
+  /** Told when fewer points are drawn than there are: one of `every`. */
+  onThin: (every: number) => void = () => undefined;
   private readonly software: boolean; // no graphics card: one sample a pixel
 
   /** Throws when the browser has no WebGL 2. */
@@ -222,7 +228,7 @@ export class Stage {
   private distanceFor(extent: number): number {
     const half = (kFieldOfView / 2) * (Math.PI / 180);
     const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
-    return (0.96 * extent) / Math.sin(narrow);
+    return (1.03 * extent) / Math.sin(narrow);
   }
 
   // Keeps what is shown as large as it was when the parts move.
@@ -250,20 +256,40 @@ export class Stage {
 
   private requestFrame(): void {
     if (this.frame !== 0) return;
+    const asked = performance.now();
     this.frame = requestAnimationFrame((time) => {
       this.frame = 0;
       const gap = time - this.lastFrame;
       this.lastFrame = time;
-      // A long pause is no slow frame.
-      if (gap < 250) this.coarse = gap > kSlow || (this.coarse && gap > 0.6 * kSlow);
-      this.render(this.coarse);
+      // A long pause is no slow frame, but to be kept waiting for one is.
+      const took = Math.max(gap < 250 ? gap : 0, performance.now() - asked);
+      this.coarse = took > kSlow || (this.coarse && took > 0.6 * kSlow);
+      this.thin(took);
+      this.render(this.coarse, this.coarse ? this.every : 1);
       clearTimeout(this.settle);
-      if (this.coarse) this.settle = window.setTimeout(() => this.render(false), 200);
+      if (this.coarse) this.settle = window.setTimeout(() => this.rest(), 300);
     });
   }
 
-  /** Draws now. `coarse`: one sample a pixel. */
-  render(coarse = false): void {
+  // Fewer points the slower the frames, all again when there is time.
+  private thin(took: number): void {
+    const { count } = this.model.shape.points;
+    if (took > kVerySlow && count / this.every > kFewPoints && this.every < kMostEvery) {
+      this.every *= 2;
+    } else if (took < 0.5 * kSlow && this.every > 1) {
+      this.every /= 2;
+    }
+    this.onThin(this.coarse ? this.every : 1);
+  }
+
+  // Nothing moves: everything is drawn, however long it takes.
+  private rest(): void {
+    this.render(false);
+    this.onThin(1);
+  }
+
+  /** Draws now. `coarse`: one sample a pixel; one of `every` points. */
+  render(coarse = false, every = 1): void {
     const { look } = this;
     if (!look || this.canvas.width === 0) return;
     const ratio = this.renderer.getPixelRatio();
@@ -274,7 +300,7 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
     const dot = this.seeThrough ? 1.8 * ratio * factor : 0;
-    this.splats.update(this.pixels() * ratio * factor, dot, this.background);
+    this.splats.update(this.pixels() * ratio * factor, dot, this.background, every);
     this.finish.render(this.renderer, this.scene, this.camera, {
       factor,
       background: this.background,
@@ -371,7 +397,7 @@ function isSoftware(renderer: WebGLRenderer): boolean {
   return /swiftshader|llvmpipe|software/i.test(name);
 }
 
-function extentOf(positions: Uint16Array): number {
+export function extentOf(positions: Uint16Array): number {
   let largest = 0;
   for (let i = 0; i < positions.length; i += 3) {
     const [x, y, z] = [0, 1, 2].map((axis) => positions[i + axis] / 32767.5 - 1);
