@@ -23,8 +23,8 @@ _morsel() {
   shopt -q extglob || { shopt -s extglob; trap 'shopt -u extglob; trap - RETURN' RETURN; }
 
   if ((COMP_CWORD == 1)); then
-    _morsel_words 'segment index search compare matrix list show remove rename export import check
-      --help --version'
+    _morsel_words 'segment index search compare matrix serve list show remove rename export import
+      check --help --version'
     return
   fi
   case $command in
@@ -34,6 +34,7 @@ _morsel() {
     search) options="--database --top --json --picture $score $mesh" ;;
     compare) options="--database --json --picture $score $mesh" ;;
     matrix) options="--database --output --picture $score --threads --help" ;;
+    serve) options='--database --host --port --token --most-upload --threads --help' ;;
     list) options='--database --class --tag --json --help' ;;
     show) options='--database --json --picture --thumbnail --help' ;;
     export) options='--database --output --help' ;;
@@ -70,7 +71,7 @@ _morsel() {
       fi
       ;;
     --sample | --noise | --seed | --parts | --merge-ratio | --big-ball-ratio | --deep-angle | \
-      --threads | --top | --tag) ;;
+      --threads | --top | --tag | --host | --port | --token | --most-upload) ;;
     *)
       if [[ $cur == -* ]]; then
         _morsel_words "$options"

@@ -11,13 +11,14 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache pkg-config python3
   libcgal-dev libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev
-  liblzf-dev libnanoflann-dev zlib1g-dev libsqlite3-dev libsqlitecpp-dev libxxhash-dev libgtest-dev
+  liblzf-dev libnanoflann-dev zlib1g-dev libsqlite3-dev libsqlitecpp-dev libxxhash-dev
+  libcpp-httplib-dev libgtest-dev
 )
 # Node.js builds the viewer; one that did not come from Debian brings its npm along.
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then packages+=(nodejs npm); fi
 lint=(clang-format clang-tidy-16 shellcheck) # 14, the default, cannot parse <ranges>
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
-test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest mypy)
+test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest python3-jsonschema mypy)
 case "${1:-}" in
   "") ;;
   --lint) packages+=("${lint[@]}") ;;

@@ -8,7 +8,10 @@ const hash = (text: string) => `'sha256-${createHash('sha256').update(text).dige
 // Within a script or style element no closing tag of it and no comment may be spelt.
 const harmless = (text: string) => text.replace(/<(?=\/(?:script|style)|!--)/gi, '\\x3C');
 
-export function singlePage(): Plugin {
+/** `name`: of the page. One that is opened from the disk reaches nothing, the app its own server. */
+export function singlePage(name: string): Plugin {
+  const sources =
+    name === 'app.html' ? "connect-src 'self'; img-src 'self' data: blob:; " : 'img-src data:; ';
   return {
     name: 'single-page',
     enforce: 'post',
@@ -25,7 +28,7 @@ export function singlePage(): Plugin {
       const code = harmless(script);
       const policy =
         `default-src 'none'; script-src ${hash(code)}; style-src ${hash(style)}; ` +
-        "img-src data:; base-uri 'none'; form-action 'none'; " +
+        `${sources}base-uri 'none'; form-action 'none'; ` +
         "require-trusted-types-for 'script'; trusted-types 'none'";
       page = page
         .replace(/\s*<script type="module"[^>]*><\/script>/, '')
@@ -38,7 +41,7 @@ export function singlePage(): Plugin {
         .replace('</head>', () => `<style>${style}</style>\n  </head>`)
         .replace('</body>', () => `<script type="module">${code}</script>\n  </body>`);
       for (const name of Object.keys(bundle)) delete bundle[name];
-      this.emitFile({ type: 'asset', fileName: 'viewer.html', source: page });
+      this.emitFile({ type: 'asset', fileName: name, source: page });
     },
   };
 }

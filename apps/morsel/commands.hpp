@@ -25,6 +25,7 @@ void add_index(CLI::App& app, Command& chosen);
 void add_search(CLI::App& app, Command& chosen);
 void add_compare(CLI::App& app, Command& chosen);
 void add_matrix(CLI::App& app, Command& chosen);
+void add_serve(CLI::App& app, Command& chosen);
 void add_list(CLI::App& app, Command& chosen);
 void add_show(CLI::App& app, Command& chosen);
 void add_remove(CLI::App& app, Command& chosen);

@@ -26,6 +26,7 @@ constexpr const char* kExamples = R"(Examples:
   morsel segment chair.off --picture chair.png      sample a mesh, draw its parts
   morsel index --database shapes.db models/         store the shapes of a folder
   morsel search --database shapes.db scan.ply       find those that look like a scan
+  morsel serve --database shapes.db                 look at them in a browser
 
 'morsel COMMAND --help' lists the options; 'man morsel' has it all.)";
 
@@ -130,8 +131,9 @@ int run(int argc, char** argv) {
   app.footer(kExamples);
   app.require_subcommand(0, 1);
   Command chosen;
-  for (const auto add : {add_segment, add_index, add_search, add_compare, add_matrix, add_list,
-                         add_show, add_remove, add_rename, add_export, add_import, add_check}) {
+  for (const auto add :
+       {add_segment, add_index, add_search, add_compare, add_matrix, add_serve, add_list, add_show,
+        add_remove, add_rename, add_export, add_import, add_check}) {
     add(app, chosen);
   }
   try {

@@ -83,10 +83,10 @@ TEST(ShapeJson, TellsTheCutAndTheColours) {
   EXPECT_EQ(shape.json()["merge_ratio"], 1.4);
   EXPECT_EQ(shape.json({.merge_ratio = 2.5})["merge_ratio"], 2.5);
   const Json palette = shape.json()["palette"];
-  for (int part = 0; part < 24; ++part) {
+  ASSERT_EQ(palette.size(), 240U);
+  for (int part = 0; part < 240; ++part) {
     EXPECT_EQ(palette[part].get<Color>(), part_color(part));
   }
-  EXPECT_EQ(part_color(static_cast<int>(palette.size())), part_color(0));
 }
 
 TEST(ShapeJson, NoNameBreaksOut) {
@@ -126,6 +126,19 @@ TEST(ShapeJson, FewPointsAreBalls) {
   ASSERT_EQ(radii.size(), 100U);
   EXPECT_EQ(radii[0], 255);
   EXPECT_EQ(radii[1], 0);
+}
+
+TEST(PictureJson, PiecesAreTheParts) {
+  const shapes::Points points = shapes::even_sphere(500);
+  std::vector<int> parts(points.size(), 1);
+  parts[0] = -1;
+  const Json json = Json::parse(picture_json(points, parts, 2));
+  const auto pieces = decoded<std::uint16_t>(json["points"]["pieces"]);
+  ASSERT_EQ(pieces.size(), points.size());
+  EXPECT_EQ(pieces[0], 2);
+  EXPECT_EQ(pieces[1], 1);
+  EXPECT_EQ(json["palette"].size(), 240U);
+  EXPECT_FALSE(json.contains("tree"));
 }
 
 TEST(HtmlPage, OptionsAndSizesAreChecked) {

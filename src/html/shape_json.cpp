@@ -12,6 +12,7 @@
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/base64.hpp"
@@ -25,7 +26,7 @@ using Json = nlohmann::ordered_json;
 using picture::Cloud;
 using picture::Surfel;
 
-constexpr std::size_t kPaletteSize = 24;  // part_color repeats after these
+constexpr std::size_t kPaletteSize = 240;  // few cuts have more parts
 
 template <typename Value>
 std::string_view bytes_of(const std::vector<Value>& values) {
@@ -159,31 +160,19 @@ Json view_json(const std::vector<Surfel>& surfels) {
   return json;
 }
 
-}  // namespace
-
-std::string shape_json(std::span<const Vec3> points, const MergeTree& tree,
-                       const HtmlOptions& options) {
-  std::vector<int> pieces;
-  pieces.reserve(points.size());
-  for (const std::uint32_t p : tree.piece_of_point) {
-    pieces.push_back(p == kNoBasin ? -1 : static_cast<int>(p));
-  }
-  Cloud cloud = picture::normalize(points, pieces);
-  const Vec3 center = cloud.center;
-  const double scale = cloud.scale;
+// Adds where the points are, how they are first seen and what colours there are.
+void add_picture(Json& json, Cloud cloud, std::size_t most_points, std::size_t part_count) {
+  json["center"] = vector_json(cloud.center);
+  json["scale"] = cloud.scale;
   const std::vector<Surfel> surfels =
-      picture::make_surfels(thin_out(std::move(cloud), options.most_points));
-  Json json;
-  json["morsel"] = version();
-  json["name"] = options.name;
-  json["points_of_input"] = points.size();
-  json["center"] = vector_json(center);
-  json["scale"] = scale;
+      picture::make_surfels(thin_out(std::move(cloud), most_points));
   json["view"] = view_json(surfels);
   json["palette"] = palette_json();
-  json["merge_ratio"] = options.merge_ratio.value_or(tree.natural_ratio);
-  json["points"] = points_json(surfels, tree.moments.size());
-  json["tree"] = tree_json(tree);
+  json["points"] = points_json(surfels, part_count);
+}
+
+// For a <script> element.
+std::string text_of(const Json& json) {
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
@@ -195,6 +184,32 @@ std::string shape_json(std::span<const Vec3> points, const MergeTree& tree,
     }
   }
   return safe;
+}
+
+}  // namespace
+
+std::string shape_json(std::span<const Vec3> points, const MergeTree& tree,
+                       const HtmlOptions& options) {
+  std::vector<int> pieces;
+  pieces.reserve(points.size());
+  for (const std::uint32_t p : tree.piece_of_point) {
+    pieces.push_back(p == kNoBasin ? -1 : static_cast<int>(p));
+  }
+  Json json;
+  json["morsel"] = version();
+  json["name"] = options.name;
+  json["points_of_input"] = points.size();
+  json["merge_ratio"] = options.merge_ratio.value_or(tree.natural_ratio);
+  add_picture(json, picture::normalize(points, pieces), options.most_points, tree.moments.size());
+  json["tree"] = tree_json(tree);
+  return text_of(json);
+}
+
+std::string picture_json(std::span<const Vec3> points, std::span<const int> parts,
+                         std::size_t part_count) {
+  Json json;
+  add_picture(json, picture::normalize(points, parts), points.size(), part_count);
+  return text_of(json);
 }
 
 }  // namespace morsel

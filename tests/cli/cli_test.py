@@ -38,7 +38,7 @@ class Help(CliTest):
     def test_help_lists_the_commands(self):
         self.assertEqual(sorted(self.commands()), [
             "check", "compare", "export", "import", "index", "list", "matrix", "remove", "rename",
-            "search", "segment", "show"])
+            "search", "segment", "serve", "show"])
 
     def test_help_has_examples(self):
         for arguments in ([], *([command] for command in self.commands())):

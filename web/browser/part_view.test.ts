@@ -2,48 +2,27 @@
 // MORSEL names the program, CHROMIUM the browser; tests/viewer/CMakeLists.txt sets both.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { chromium, type Browser, type BrowserContextOptions, type Page } from 'playwright-core';
+import {
+  CHROMIUM,
+  MORSEL,
+  colorsOf,
+  countWith,
+  drawn,
+  dumbbell,
+  kArguments,
+  violationsOf,
+  type Colors,
+} from './support';
 import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
 
-const { MORSEL = 'morsel', CHROMIUM = '/usr/bin/chromium' } = process.env;
 const kName = `<img src=x onerror=alert(1)>&"'\u202e.xyz`;
-const kArguments = [
-  '--no-sandbox',
-  '--no-first-run',
-  '--disable-quic',
-  '--disable-background-networking',
-  '--disable-component-update',
-  '--disable-sync',
-  '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader',
-];
-
-// Two balls and a bar between them, evenly spread; the right ball is the larger.
-function dumbbell(count: number): string {
-  const lines: string[] = [];
-  for (let i = 0; i < count; ++i) {
-    const angle = i * Math.PI * (3 - Math.sqrt(5));
-    const z = 1 - (2 * i + 1) / count;
-    const r = Math.sqrt(1 - z * z);
-    const [x, y] = [r * Math.cos(angle), r * Math.sin(angle)];
-    const [center, radius] = i % 2 === 0 ? [-2, 1] : [2.1, 1.15];
-    if (i % 10 === 0) {
-      lines.push(`${1.1 * z} ${0.3 * Math.cos(angle)} ${0.3 * Math.sin(angle)}`);
-    } else if (x * center > 0 || radius * Math.hypot(y, z) > 0.3) {
-      lines.push(`${center + radius * x} ${radius * y} ${radius * z}`);
-    }
-  }
-  return lines.join('\n');
-}
-
 let folder: string;
 let address: string;
 let browser: Browser;
-let counter: Page; // counts colours
 let complaints: string[] = [];
 
 beforeAll(async () => {
@@ -54,7 +33,7 @@ beforeAll(async () => {
   execFileSync(MORSEL, ['segment', input, '--parts', '2', '--html', page], { stdio: 'pipe' });
   address = pathToFileURL(page).href;
   browser = await chromium.launch({ executablePath: CHROMIUM, args: kArguments });
-  counter = await browser.newPage();
+  countWith(await browser.newPage());
 });
 
 afterAll(async () => {
@@ -83,75 +62,6 @@ async function open(options: BrowserContextOptions = {}): Promise<Page> {
   await page.goto(address);
   await drawn(page);
   return page;
-}
-
-// Waits until what was asked for is on the screen.
-const drawn = (page: Page) =>
-  page.evaluate(
-    () =>
-      new Promise<void>((done) =>
-        requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 100))),
-      ),
-  );
-
-interface Colors {
-  width: number;
-  height: number;
-  /** Shares of the pixels. */
-  green: number;
-  yellow: number;
-  dark: number;
-  light: number;
-  /** Where each colour lies on average, pixels. */
-  greenAt: [number, number];
-  yellowAt: [number, number];
-}
-
-// The first two colours of the palette in a PNG.
-async function colorsOf(png: Buffer): Promise<Colors> {
-  return counter.evaluate(
-    async (data) => {
-      const image = new Image();
-      image.src = data;
-      await image.decode();
-      const { width, height } = image;
-      const canvas = new OffscreenCanvas(width, height);
-      const context = canvas.getContext('2d')!;
-      context.drawImage(image, 0, 0);
-      const { data: rgba } = context.getImageData(0, 0, width, height);
-      const sums = { green: [0, 0, 0], yellow: [0, 0, 0], dark: [0, 0, 0], light: [0, 0, 0] };
-      for (let i = 0; i < rgba.length; i += 4) {
-        const [r, g, b] = rgba.subarray(i, i + 3);
-        const name =
-          g > 60 && r < 0.45 * g && b > 0.5 * g
-            ? 'green'
-            : g > 60 && r > 0.85 * g && b < 0.6 * g
-              ? 'yellow'
-              : r + g + b < 180
-                ? 'dark'
-                : r + g + b > 700
-                  ? 'light'
-                  : null;
-        if (name === null) continue;
-        sums[name][0] += 1;
-        sums[name][1] += (i / 4) % width;
-        sums[name][2] += Math.floor(i / 4 / width);
-      }
-      const share = ([count]: number[]) => count / (width * height);
-      const place = ([count, x, y]: number[]): [number, number] => [x / count, y / count];
-      return {
-        width,
-        height,
-        green: share(sums.green),
-        yellow: share(sums.yellow),
-        dark: share(sums.dark),
-        light: share(sums.light),
-        greenAt: place(sums.green),
-        yellowAt: place(sums.yellow),
-      };
-    },
-    `data:image/png;base64,${png.toString('base64')}`,
-  );
 }
 
 const stageOf = (page: Page) => page.locator('.stage');
@@ -396,7 +306,6 @@ describe('pictures and looks', () => {
 });
 
 describe('accessibility', () => {
-  const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core'), 'utf8');
   test.each([
     ['light', 1280],
     ['dark', 390],
@@ -405,13 +314,7 @@ describe('accessibility', () => {
     await page.getByRole('button', { name: 'Part 0', exact: true }).click();
     await page.getByText('What is this?').click();
     await sliderOf(page).fill('0');
-    await page.evaluate(axe);
-    const violations = await page.evaluate(async () => {
-      const { axe } = window as unknown as { axe: typeof import('axe-core') };
-      const found = await axe.run();
-      return found.violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`);
-    });
-    expect(violations).toEqual([]);
+    expect(await violationsOf(page)).toEqual([]);
     await page.context().close();
   });
 });

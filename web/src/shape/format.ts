@@ -38,20 +38,24 @@ export interface MergeTree {
   objects: number;
 }
 
-export interface Shape {
-  /** Version of the program that wrote it. */
-  version: string;
-  name: string;
-  pointsOfInput: number;
+/** Points in the colours of their parts, as src/html/shape_json.cpp writes them. */
+export interface Picture {
   /** A point p of the input is drawn at (p - center) / scale. */
   center: Vec3;
   scale: number;
   /** Rows of the rotation to the first view: right, up, towards the viewer. */
   view: readonly number[];
   palette: readonly Vec3[];
+  points: Points;
+}
+
+export interface Shape extends Picture {
+  /** Version of the program that wrote it. */
+  version: string;
+  name: string;
+  pointsOfInput: number;
   /** Where the tree was cut. */
   mergeRatio: number;
-  points: Points;
   tree: MergeTree;
 }
 
@@ -72,21 +76,18 @@ function decode(field: { type: keyof typeof kTypes; data: string }): TypedArray 
   return new kTypes[field.type](bytes.buffer);
 }
 
-/** Reads the JSON text of a page's shape. */
-export function parseShape(text: string): Shape {
-  const json = JSON.parse(text);
-  const { points, tree } = json;
+/** What JSON.parse gives. */
+type Json = ReturnType<typeof JSON.parse>;
+
+/** Reads what both kinds of pages show. */
+export function pictureOf(json: Json): Picture {
+  const { points } = json;
   const pieces = Uint32Array.from(decode(points.pieces));
-  const ballRadius = decode(tree.ball_radius) as Float64Array;
   return {
-    version: json.morsel,
-    name: json.name,
-    pointsOfInput: json.points_of_input,
     center: json.center,
     scale: json.scale,
     view: json.view,
     palette: json.palette,
-    mergeRatio: json.merge_ratio,
     points: {
       count: pieces.length,
       positions: decode(points.positions) as Uint16Array,
@@ -95,6 +96,20 @@ export function parseShape(text: string): Shape {
       longestRadius: points.longest_radius,
       pieces,
     },
+  };
+}
+
+/** Reads the JSON text of a page's shape. */
+export function parseShape(text: string): Shape {
+  const json = JSON.parse(text);
+  const { tree } = json;
+  const ballRadius = decode(tree.ball_radius) as Float64Array;
+  return {
+    ...pictureOf(json),
+    version: json.morsel,
+    name: json.name,
+    pointsOfInput: json.points_of_input,
+    mergeRatio: json.merge_ratio,
     tree: {
       count: ballRadius.length,
       origin: tree.origin,

@@ -16,6 +16,9 @@ export function length(value: number): string {
   return String(Number(value.toPrecision(3)));
 }
 
+/** Of a part, from the radius of its largest ball; databases keep it of the largest parts only. */
+export const thickness = (ballRadius: number) => (ballRadius > 0 ? length(2 * ballRadius) : '–');
+
 /** "1 part", "12,345 points". */
 export function counted(count: number, noun: string): string {
   return `${count.toLocaleString('en')} ${noun}${count === 1 ? '' : 's'}`;

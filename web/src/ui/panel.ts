@@ -1,5 +1,5 @@
 // Everything beside the picture: how finely to cut, what to show, the list of parts.
-import { counted, length, percent } from '../shape/text';
+import { counted, percent, thickness } from '../shape/text';
 import type { Form } from '../view/stage';
 import { make, setText, uniqueId } from './dom';
 import { PartCard } from './part_card';
@@ -66,7 +66,11 @@ export class Panel {
       { type: 'button', class: 'link', click: () => this.showAll() },
       'Show all',
     );
-    this.themeButton = make('button', { type: 'button', click: () => actions.theme.toggle() });
+    this.themeButton = make('button', {
+      type: 'button',
+      class: 'theme',
+      click: () => actions.theme.toggle(),
+    });
     this.tools = make(
       'div',
       { class: 'tools' },
@@ -220,7 +224,7 @@ export class Panel {
           'picture: arrows turn, + and − zoom, 0 first view, [ and ] fewer and more parts, n and p ' +
           'next and previous part, h hide, o only this part, a show all, Esc select none.',
       ),
-      make('p', { class: 'note' }, `Made by morsel ${version}. Nothing leaves this page.`),
+      make('p', { class: 'note' }, `Made by morsel ${version}.`),
     );
   }
 
@@ -279,7 +283,7 @@ export class Panel {
     const beside = neighbors.map((neighbor) => neighbor.part).join(', ') || 'none';
     return (
       `Part ${part}: ${percent(own / volume)} of the volume, thickness ` +
-      `${length(2 * ballRadius)}, touches ${beside}`
+      `${thickness(ballRadius)}, touches ${beside}`
     );
   }
 
@@ -296,7 +300,7 @@ export class Panel {
     this.coarser.disabled = view.level === 0;
     this.finer.disabled = view.level === last;
     this.reset.hidden = view.level === model.firstLevel;
-    setText(this.levelNote, levelNote(view.level, model.firstLevel, last));
+    setText(this.levelNote, levelNote(view.parts.length, view.level, model.firstLevel, last));
     setText(this.formNote, kForms.find(([form]) => form === layers.form)![2]);
     this.showAllButton.hidden = !hidden.some(Boolean);
     const next = this.actions.theme.dark ? 'Light' : 'Dark';
@@ -306,7 +310,8 @@ export class Panel {
   }
 }
 
-function levelNote(level: number, first: number, last: number): string {
+function levelNote(parts: number, level: number, first: number, last: number): string {
+  if (parts === 0) return 'No inside was found in it, so it has no parts.';
   if (last === 0) return 'This shape has one cut only.';
   if (level === first) return 'This is the cut of the file: what morsel chose or was asked for.';
   if (level === 0) return 'The coarsest cut.';

@@ -1,6 +1,6 @@
 // The measures of the part that is selected.
 import type { View } from '../shape/model';
-import { length, percent } from '../shape/text';
+import { percent, thickness } from '../shape/text';
 import { make } from './dom';
 
 export interface PartEvents {
@@ -71,7 +71,7 @@ export class PartCard {
           'Points',
           `${percent(part.pointCount / view.pointCount)} of them (${part.pointCount.toLocaleString('en')})`,
         ),
-        ...row('Thickness', length(2 * part.ballRadius)),
+        ...row('Thickness', thickness(part.ballRadius)),
         ...row('Touches', ...this.neighbors(view, selected)),
       ),
       make(

@@ -1,6 +1,6 @@
 // All parts of the cut, the largest first.
 import type { View } from '../shape/model';
-import { length, percent } from '../shape/text';
+import { percent, thickness } from '../shape/text';
 import { make, setText } from './dom';
 import { cssColor, swatch, type PartEvents } from './part_card';
 
@@ -42,7 +42,7 @@ export class PartList {
       const part = view.parts[i];
       row.swatch.style.backgroundColor = cssColor(view.colors[i]);
       setText(row.volume, percent(part.volume / view.volume));
-      setText(row.thickness, length(2 * part.ballRadius));
+      setText(row.thickness, thickness(part.ballRadius));
       row.show.checked = !hidden[i];
       row.element.classList.toggle('selected', i === selected);
       row.name.setAttribute('aria-pressed', String(i === selected));
