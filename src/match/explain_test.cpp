@@ -16,8 +16,8 @@ Segmentation segmented(const shapes::Points& points) {
 }
 
 TEST(ExplainScore, TheTermsMakeTheScore) {
-  const Signature a = segmented(shapes::dumbbell(3000, 0.4)).signature;
-  const Signature b = segmented(shapes::torus(3000, 2.0, 0.7)).signature;
+  const Signature a = make_signature(segmented(shapes::dumbbell(3000, 0.4)));
+  const Signature b = make_signature(segmented(shapes::torus(3000, 2.0, 0.7)));
   const auto terms = explain_score(a, b);
   ASSERT_EQ(terms.size(), 5U);
   double distance = 0.0;
@@ -47,7 +47,8 @@ TEST(OnTarget, PointsAndPartsGoWhereTheMatchSays) {
 TEST(OnTarget, AShapeLiesOnItself) {
   const shapes::Points points = shapes::dumbbell(3000, 0.4);
   const Segmentation s = segmented(points);
-  const Match match = morsel::match(s.signature, s.signature);
+  const Signature signature = make_signature(s);
+  const Match match = morsel::match(signature, signature);
   const auto moved = on_target(match, points);
   double farthest = 0.0;
   for (const Vec3& p : moved) {

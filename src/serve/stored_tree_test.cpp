@@ -22,7 +22,7 @@ const Segmentation& dumbbell() {
 ShapeData data_of(const Segmentation& s) {
   ShapeData data;
   data.points = s.labels.size();
-  data.signature = s.signature;
+  data.signature = make_signature(s);
   data.sketch = make_sketch(s);
   return data;
 }
