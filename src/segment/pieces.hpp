@@ -18,10 +18,10 @@ struct Pieces {
   [[nodiscard]] std::size_t count() const { return region.size(); }
 };
 
-/// `region_of_basin` groups the basins that no neck separates, numbered from 0 by their first basins;
-/// `object_of_basin` those that touch at all, by any number. `spacing` is the points' mean λ.
-/// Seeds are chosen farthest first through the inside, so the pieces depend on the shape alone, not
-/// on its pose or density. Cost: O(c log p) for p pieces.
+/// `region_of_basin` groups the basins that no neck separates, numbered from 0 by their first
+/// basins; `object_of_basin` those that touch at all, by any number. `spacing` is the points' mean
+/// λ. Seeds are chosen farthest first through the inside, so the pieces depend on the shape alone,
+/// not on its pose or density. Cost: O(c log p) for p pieces.
 [[nodiscard]] Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
                                    const std::vector<std::uint32_t>& region_of_basin,
                                    const std::vector<std::uint32_t>& object_of_basin,
