@@ -11,8 +11,7 @@ import pytest
 import morsel
 import shapes
 
-STAGES = ["denoise", "triangulate", "neighbors", "interior", "basins", "merge", "cut", "signature",
-          "done"]
+STAGES = ["denoise", "triangulate", "neighbors", "interior", "basins", "merge", "cut", "done"]
 
 
 @pytest.fixture(scope="module")

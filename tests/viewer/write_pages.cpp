@@ -54,7 +54,7 @@ void write_all(const std::filesystem::path& folder) {
   using namespace morsel::shapes;
   std::filesystem::create_directories(folder);
   const Points ball = sphere(2000);
-  write(folder, "random_tree", ball, random_tree(300, ball.size()));
+  write(folder, "random_tree", ball, random_tree(450, ball.size()));
   write(folder, "single_piece", ball, random_tree(3, ball.size()));
   const Points bells = joined(noisy(dumbbell(8000), 0.01), moved(sphere(1500), {0, 4, 0}));
   write(folder, "dumbbell", bells, morsel::segment(bells).tree);
