@@ -32,7 +32,17 @@ class SegmentWalk {
     double entered = 0.0;  // as shares of the segment, kept up to date outside only
     std::uint32_t cell = from;
     Facet facet = first_facet(view, from);
+    // A straight walk meets no cell twice; where cells are flat, rounding may turn it in a circle
+    // (R. P. Brent's test finds any within twice its length). Nothing outside was met on it.
+    std::uint32_t milestone = kNoCell;
+    std::size_t step = 0;
+    std::size_t next_milestone = 64;
     while (cell != to) {
+      if (cell == milestone) return true;
+      if (++step == next_milestone) {
+        milestone = cell;
+        next_milestone *= 2;
+      }
       const bool inner = interior_.side[cell] == CellSide::kInner;
       const std::uint32_t next = complex_.neighbors[cell][facet.slot];
       if (next == kNoCell) return false;
@@ -69,6 +79,9 @@ class SegmentWalk {
       x_ = (1.0 / norm(across)) * across;
       y_ = cross(along, x_);
       z_ = (1.0 / length_) * along;
+      // Off the axis by next to nothing, so that regular samples have no corner exactly on it.
+      constexpr double kNextToNothing = 1e-9;
+      start_ = start_ + kNextToNothing * length_ * (x_ + 0.6180339887 * y_);
     }
     [[nodiscard]] double length() const { return length_; }
     [[nodiscard]] Vec3 see(const Vec3& p) const {

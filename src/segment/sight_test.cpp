@@ -83,5 +83,19 @@ TEST(SightTest, FarPairsDoNotCount) {
   EXPECT_EQ(table.weight[0], 1.0F);
 }
 
+// Cells of a grid are flat or share spheres, and lines between them run along edges and through
+// corners: walks could turn in circles there.
+TEST(SightTest, RegularGridsAreSeenThrough) {
+  Stages s;
+  s.complex = triangulate(shapes::grid(7));
+  s.interior.side.assign(s.complex.cell_count(), CellSide::kInner);
+  Pieces pieces;
+  for (std::uint32_t c = 0; c < s.complex.cell_count(); c += 5) pieces.seed.push_back(c);
+  pieces.region.assign(pieces.seed.size(), 0);
+  pieces.extent.assign(pieces.seed.size(), 1000.0);
+  const SightTable table = find_sight(s.complex, s.interior, pieces, 1.0, 2);
+  EXPECT_TRUE(std::ranges::all_of(table.seen, [](float seen) { return seen == 1.0F; }));
+}
+
 }  // namespace
 }  // namespace morsel
