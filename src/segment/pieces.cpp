@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // How far a piece's cells lie from its seed, in root mean square radii of the object.
 constexpr double kPieceRadius = 0.17;
-constexpr std::size_t kMostPieces = 300;
+constexpr std::size_t kMostPieces = 400;
 
 // The inner cells by themselves, numbered as in the complex, with their neighbours of the same
 // region: much smaller than the complex, and walked through again and again.
