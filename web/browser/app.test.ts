@@ -14,6 +14,7 @@ import {
   dumbbell,
   kArguments,
   violationsOf,
+  watch,
 } from './support';
 
 const kOdd = `odd/<img src=x onerror=alert(1)>&"'.xyz`;
@@ -95,12 +96,11 @@ async function open(
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   const tab = await context.newPage();
   tab.setDefaultTimeout(120_000);
-  tab.on('console', (message) => complaints.push(message.text()));
-  tab.on('pageerror', (error) => complaints.push(String(error)));
-  tab.on('dialog', (dialog) => complaints.push(`dialog: ${dialog.message()}`));
-  tab.on('request', (request) => {
-    if (!request.url().startsWith(address)) complaints.push(request.url());
-  });
+  watch(
+    tab,
+    (url) => url.startsWith(address),
+    (text) => complaints.push(text),
+  );
   await tab.goto(address + page);
   return tab;
 }
@@ -121,7 +121,7 @@ describe('the gallery', () => {
   test('shows all shapes and narrows them', async () => {
     const page = await open('');
     await title(page, /4 shapes in s\.db/);
-    expect(await page.locator('.tile').count()).toBe(4);
+    await expect.poll(() => page.locator('.tile').count()).toBe(4);
     await expect
       .poll(() =>
         page

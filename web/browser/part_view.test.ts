@@ -15,6 +15,7 @@ import {
   dumbbell,
   kArguments,
   violationsOf,
+  watch,
   type Colors,
 } from './support';
 import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
@@ -53,12 +54,11 @@ async function open(options: BrowserContextOptions = {}): Promise<Page> {
   });
   const page = await context.newPage();
   page.setDefaultTimeout(120_000);
-  page.on('console', (message) => complaints.push(message.text()));
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  page.on('dialog', (dialog) => complaints.push(`dialog: ${dialog.message()}`));
-  page.on('request', (request) => {
-    if (!/^(file|blob|data):/.test(request.url())) complaints.push(request.url());
-  });
+  watch(
+    page,
+    (url) => /^(file|blob|data):/.test(url),
+    (text) => complaints.push(text),
+  );
   await page.goto(address);
   await drawn(page);
   return page;

@@ -119,3 +119,17 @@ export async function violationsOf(page: Page): Promise<string[]> {
     return found.violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`);
   });
 }
+
+/** Complains of whatever a page logs, throws, asks or requests that is not its own. */
+export function watch(
+  page: Page,
+  isOwn: (url: string) => boolean,
+  complain: (text: string) => void,
+): void {
+  page.on('console', (message) => complain(message.text()));
+  page.on('pageerror', (error) => complain(String(error)));
+  page.on('dialog', (dialog) => complain(`dialog: ${dialog.message()}`));
+  page.on('request', (request) => {
+    if (!isOwn(request.url())) complain(request.url());
+  });
+}
