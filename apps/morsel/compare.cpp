@@ -64,7 +64,7 @@ std::string json_text(const Subject& a, const Subject& b, const Match& match) {
   json["target"] = a.name;
   json["source"] = b.name;
   json.update(Json::parse(to_json(match)));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return pretty(json);
 }
 
 int run_compare(const Arguments& arguments) {
@@ -99,9 +99,7 @@ void add_compare(CLI::App& app, Command& chosen) {
   add_json(*command, arguments->json);
   add_output(*command, "--picture", "FILE.png", arguments->picture,
              "Both side by side, B turned onto A");
-  add_match_options(*command, arguments->match);
-  add_mesh_options(*command, arguments->read.sample);
-  add_threads(*command, arguments->read.threads, "Sampling (meshes only)");
+  add_comparison_options(*command, arguments->match, arguments->read);
   command->footer(kExamples);
   command->group("Look-alikes");
   command->callback(

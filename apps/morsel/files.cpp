@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <iostream>
 #include <morsel/error.hpp>
 #include <set>
 #include <string_view>
 #include <system_error>
+
+#include "base/lower_case.hpp"
 
 namespace morsel::cli {
 namespace {
@@ -23,9 +24,7 @@ constexpr std::array<std::string_view, 12> kExtensions{".ply", ".pcd", ".xyz",  
                                                        ".las", ".stl", ".gltf", ".glb"};
 
 bool is_shape(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(file.extension().string());
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 

@@ -54,7 +54,7 @@ std::string json_text(const std::vector<ShapeInfo>& shapes) {
                     {"tags", shape.tags},
                     {"source", shape.source}});
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return pretty(json);
 }
 
 int run_list(const Arguments& arguments) {

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
@@ -12,6 +11,7 @@
 #include <system_error>
 
 #include "base/atomic_file.hpp"
+#include "base/lower_case.hpp"
 
 namespace morsel::cli {
 namespace {
@@ -34,9 +34,7 @@ fs::path folder_of(const fs::path& path) {
 
 void check_extension(const Output& output) {
   if (output.extensions.empty()) return;
-  std::string extension = output.path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(output.path.extension().string());
   const auto& allowed = output.extensions;
   if (std::find(allowed.begin(), allowed.end(), extension) != allowed.end()) return;
   fail_usage(output, fmt::format("the name must end in {}", fmt::join(allowed, " or ")));

@@ -78,7 +78,7 @@ std::string json_text(const Answer& answer, const Arguments& arguments) {
     entry.update(Json::parse(to_json(answer.matches[i])));
     json["hits"].push_back(std::move(entry));
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return pretty(json);
 }
 
 Answer find_answer(const Arguments& arguments, const Progress& progress) {
@@ -127,9 +127,7 @@ void add_search(CLI::App& app, Command& chosen) {
   add_json(*command, arguments->json);
   add_output(*command, "--picture", "FILE.png", arguments->picture,
              "The query and what was found, side by side in one pose");
-  add_match_options(*command, arguments->match);
-  add_mesh_options(*command, arguments->read.sample);
-  add_threads(*command, arguments->read.threads, "Sampling (meshes only)");
+  add_comparison_options(*command, arguments->match, arguments->read);
   command->footer(kExamples);
   command->group("Look-alikes");
   command->callback(

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "options.hpp"
 #include "suggest.hpp"
 
 namespace morsel::cli {
@@ -43,6 +44,12 @@ Subject read_subject(const std::string& file, const ReadOptions& options,
 }
 
 }  // namespace
+
+void add_comparison_options(CLI::App& command, MatchOptions& match, ReadOptions& read) {
+  add_match_options(command, match);
+  add_mesh_options(command, read.sample);
+  add_threads(command, read.threads, "Sampling (meshes only)");
+}
 
 Subject stored_subject(const Database& database, const std::string& name) {
   StoredShape shape = database.get(name);

@@ -1,6 +1,7 @@
 // The shapes that a command compares: files, or names in a database.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <morsel/database.hpp>
 #include <optional>
@@ -21,6 +22,9 @@ struct ReadOptions {
   SampleOptions sample;
   int threads = 0;
 };
+
+/// The options of commands that compare shapes: those of the score and of reading files.
+void add_comparison_options(CLI::App& command, MatchOptions& match, ReadOptions& read);
 
 /// The shape stored under the name `text`, or else that of the file `text`; "-" is standard input.
 /// Throws Error(kInput) when there is neither.

@@ -80,7 +80,7 @@ std::string json_text(const StoredShape& shape) {
   for (const Merge& merge : shape.data.sketch.merges) {
     json["merges"].push_back({{"ratio", merge.ratio}, {"a", merge.a}, {"b", merge.b}});
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return pretty(json);
 }
 
 int run_show(const Arguments& arguments) {

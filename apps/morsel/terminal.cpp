@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <morsel/error.hpp>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "commands.hpp"
@@ -32,6 +33,10 @@ void interrupt(int /*signal*/) {
 }
 
 }  // namespace
+
+std::string pretty(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 void say(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();

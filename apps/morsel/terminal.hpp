@@ -4,6 +4,7 @@
 #include <functional>
 #include <morsel/progress.hpp>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,9 @@ namespace morsel::cli {
 
 /// Prints to standard output at once. Throws Error(kOutput) when that fails.
 void say(std::string_view text);
+
+/// JSON as it is shown: indented, bytes that are no UTF-8 replaced.
+[[nodiscard]] std::string pretty(const nlohmann::ordered_json& json);
 
 /// Prints "morsel: MESSAGE" as one line on standard error, whatever `message` holds.
 void complain(std::string_view message);

@@ -12,6 +12,8 @@
 #include <morsel/error.hpp>
 #include <utility>
 
+#include "base/lower_case.hpp"
+
 namespace morsel::io {
 namespace {
 
@@ -64,10 +66,7 @@ std::string read_to_end(std::size_t expected_size, std::size_t limit, const std:
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 }  // namespace

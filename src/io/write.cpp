@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/atomic_file.hpp"
+#include "base/lower_case.hpp"
 #include "io/bytes.hpp"
 #include "io/zip.hpp"
 
@@ -202,8 +203,7 @@ void write_npz(const std::filesystem::path& path, std::ostream& stream, const Po
 }
 
 std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::string extension = lower_case(path.extension().string());
   constexpr std::array<std::string_view, 4> kKnown = {".ply", ".pcd", ".xyz", ".npz"};
   if (std::find(kKnown.begin(), kKnown.end(), extension) == kKnown.end()) {
     throw Error(ErrorCode::kUsage, fmt::format("{}: cannot write points as '{}'; expected .ply, "

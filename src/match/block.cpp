@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <morsel/error.hpp>
@@ -27,9 +28,7 @@ constexpr std::size_t kReadBytes = kTablesAt + kTableSize;
 
 template <class T>
 T load(const char* from) {
-  T value;
-  std::memcpy(&value, from, sizeof(T));
-  return value;
+  return io::load_as<T>(from, std::endian::native);
 }
 
 template <class T>

@@ -72,13 +72,16 @@ void pair_parts(const std::vector<Blob>& target, const std::vector<Blob>& source
   }
 }
 
+// A shape with an inside and one without have nothing in common.
+bool comparable(const Signature& a, const Signature& b) { return (a.size > 0.0) == (b.size > 0.0); }
+
 }  // namespace
 
 void MatchOptions::check() const {}
 
 double match_score(const Signature& a, const Signature& b, const MatchOptions& options) {
   options.check();
-  if ((a.size > 0.0) != (b.size > 0.0)) return 0.0;
+  if (!comparable(a, b)) return 0.0;
   if (options.method == Method::kPaper) return paper_score(a, b, options.mirror).score;
   const auto tables_a = tables_of(a);
   const auto tables_b = tables_of(b);
@@ -88,13 +91,19 @@ double match_score(const Signature& a, const Signature& b, const MatchOptions& o
 }
 
 Match match(const Signature& target, const Signature& source, const MatchOptions& options) {
+  options.check();
   Match result;
-  result.score = match_score(target, source, options);
   const std::vector<Blob> to = blobs_of(target);
   const std::vector<Blob> from = blobs_of(source);
-  const Alignment alignment = options.method == Method::kPaper
-                                  ? paper_score(target, source, options.mirror).alignment
-                                  : clearest(to, from, options.mirror);
+  Alignment alignment;
+  if (options.method == Method::kPaper) {
+    const PaperMatch paper = paper_score(target, source, options.mirror);
+    result.score = comparable(target, source) ? paper.score : 0.0;
+    alignment = paper.alignment;
+  } else {
+    result.score = match_score(target, source, options);
+    alignment = clearest(to, from, options.mirror);
+  }
   result.target_from_source = transform(target, source, alignment);
   result.mirrored = alignment.target_from_source.determinant() < 0.0;
   pair_parts(to, moved(from, alignment), result);

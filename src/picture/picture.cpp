@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <morsel/error.hpp>
 #include <morsel/picture.hpp>
 #include <string>
 
 #include "base/atomic_file.hpp"
+#include "base/lower_case.hpp"
 #include "picture/scene.hpp"
 #include "picture/shade.hpp"
 #include "picture/svg.hpp"
@@ -30,10 +30,7 @@ Image white_image(std::size_t width, std::size_t height) {
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 void check_bytes(const Image& image) {

@@ -24,10 +24,11 @@ class SegmentWalk {
   SegmentWalk(const DelaunayComplex& complex, const Interior& interior)
       : complex_(complex), interior_(interior) {}
 
-  // True when the segment between the centroids of two cells leaves the inside for at most
-  // `tolerance` units in all.
-  [[nodiscard]] bool stays_inside(std::uint32_t from, std::uint32_t to, double tolerance) const {
-    const View view(cell_centroid(complex_, from), cell_centroid(complex_, to));
+  // True when the segment between the centroids `start` and `end` of two cells leaves the inside
+  // for at most `tolerance` units in all.
+  [[nodiscard]] bool stays_inside(std::uint32_t from, std::uint32_t to, const Vec3& start,
+                                  const Vec3& end, double tolerance) const {
+    const View view(start, end);
     double allowed = tolerance / view.length();
     double entered = 0.0;  // as shares of the segment, kept up to date outside only
     std::uint32_t cell = from;
@@ -182,7 +183,9 @@ SightTable find_sight(const DelaunayComplex& complex, const Interior& interior,
       if (!(relative < kSightReach)) continue;
       const double scaled = relative / kSightScale;
       table.seen[a * count + b] = table.seen[b * count + a] =
-          walk.stays_inside(pieces.seed[a], pieces.seed[b], 0.5 * spacing) ? 1.0F : 0.0F;
+          walk.stays_inside(pieces.seed[a], pieces.seed[b], place[a], place[b], 0.5 * spacing)
+              ? 1.0F
+              : 0.0F;
       table.weight[a * count + b] = table.weight[b * count + a] =
           static_cast<float>(std::exp(-scaled * scaled));
     }

@@ -1,7 +1,6 @@
 #include "serve/answers.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lower_case.hpp"
 #include "base/threads.hpp"
 #include "html/shape_json.hpp"
 #include "serve/stored_tree.hpp"
@@ -27,15 +27,9 @@ Json info_json(const ShapeInfo& info) {
   return {{"name", info.name}, {"class", info.class_name}, {"tags", info.tags}};
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool contains(const ShapeInfo& info, const std::string& text) {
   const auto has = [&](const std::string& field) {
-    return lower(field).find(text) != std::string::npos;
+    return lower_case(field).find(text) != std::string::npos;
   };
   return has(info.name) || has(info.class_name) ||
          std::any_of(info.tags.begin(), info.tags.end(), has);
@@ -43,7 +37,7 @@ bool contains(const ShapeInfo& info, const std::string& text) {
 
 std::vector<ShapeInfo> chosen(const Database& database, const ShapeChoice& choice) {
   std::vector<ShapeInfo> shapes = database.list({.class_name = choice.class_name, .tag = {}});
-  if (const std::string text = lower(choice.text); !text.empty()) {
+  if (const std::string text = lower_case(choice.text); !text.empty()) {
     std::erase_if(shapes, [&](const ShapeInfo& info) { return !contains(info, text); });
   }
   return shapes;

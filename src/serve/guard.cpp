@@ -3,28 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cstddef>
 #include <random>
 #include <utility>
 
+#include "base/lower_case.hpp"
+
 namespace morsel::serve {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 bool is_any_address(std::string_view host) { return host == "0.0.0.0" || host == "::"; }
-
-// As it stands in a URL.
-std::string in_url(const std::string& host) {
-  return host.find(':') == std::string::npos ? host : "[" + host + "]";
-}
 
 std::string cookie_name(int port) { return fmt::format("morsel-{}", port); }
 
@@ -57,6 +45,10 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) {
   return different == 0;
 }
 
+std::string in_url(const std::string& host) {
+  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
 std::string random_id() {
   std::random_device device;  // the kernel's generator
   std::string id;
@@ -68,14 +60,14 @@ Guard::Guard(std::string host, int port, std::string token)
     : host_(std::move(host)), port_(port), token_(std::move(token)), session_(random_id()) {}
 
 std::optional<Refusal> Guard::check_page(const Caller& caller) const {
-  const std::string asked = lower(caller.host);
+  const std::string asked = lower_case(caller.host);
   // Behind any address any name may be right, and a token is needed.
   if (is_any_address(host_) && !asked.empty()) return std::nullopt;
   const auto is = [&](const std::string& name) {
     return asked == fmt::format("{}:{}", in_url(name), port_) ||
            (port_ == 80 && asked == in_url(name));
   };
-  if (is(lower(host_))) return std::nullopt;
+  if (is(lower_case(host_))) return std::nullopt;
   if (is_loopback(host_)) {
     for (const char* name : {"localhost", "127.0.0.1", "::1"}) {
       if (is(name)) return std::nullopt;
@@ -89,8 +81,8 @@ std::optional<Refusal> Guard::check_page(const Caller& caller) const {
 std::optional<Refusal> Guard::check_site(const Caller& caller) const {
   if (auto refusal = check_page(caller)) return refusal;
   const bool own_origin = caller.origin.empty() ||
-                          lower(caller.origin) == "http://" + lower(caller.host) ||
-                          lower(caller.origin) == "https://" + lower(caller.host);
+                          lower_case(caller.origin) == "http://" + lower_case(caller.host) ||
+                          lower_case(caller.origin) == "https://" + lower_case(caller.host);
   const bool own_site = caller.fetch_site.empty() || caller.fetch_site == "same-origin" ||
                         caller.fetch_site == "none";
   if (own_origin && own_site) return std::nullopt;

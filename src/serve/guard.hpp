@@ -31,6 +31,9 @@ struct Refusal {
 /// 32 hexadecimal digits that nobody can guess.
 [[nodiscard]] std::string random_id();
 
+/// A host as it stands in a URL: an IPv6 address in brackets.
+[[nodiscard]] std::string in_url(const std::string& host);
+
 class Guard {
  public:
   /// `host` and `port` as listened on; no `token`: everybody on this machine may ask.

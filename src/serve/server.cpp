@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <exception>
-#include <functional>
 #include <map>
 #include <morsel/error.hpp>
 #include <morsel/serve.hpp>
@@ -100,6 +99,15 @@ serve::ShapeChoice choice_of(const Request& request) {
   return {parameter(request, "text").value_or(""), parameter(request, "class")};
 }
 
+Failure no_such_upload() {
+  return {404, "There is no such upload; it may have been too long ago."};
+}
+
+Failure too_large(const ServeOptions& options) {
+  return {413, fmt::format("The file is too large: this server takes at most {} MB.",
+                           options.most_upload_bytes >> 20)};
+}
+
 // The last part of what a browser calls a file, for messages and titles.
 std::string file_name(std::string name) {
   name = name.substr(name.find_last_of("/\\") + 1);
@@ -124,16 +132,14 @@ class Server::Service {
   }
 
  private:
-  using Answer = std::function<void(const Request&, Response&)>;
-
   int listen();
   void add_routes();
-  void get(const char* path, const Answer& answer);
   /// The JSON text that `make` gives; heavy work waits for its turn.
   template <class Make>
   void get_json(const char* path, bool heavy, const Make& make);
 
   [[nodiscard]] StoredShape stored(const std::string& name) const;
+  [[nodiscard]] std::shared_ptr<const serve::Uploaded> uploaded(const std::string& id) const;
   [[nodiscard]] QueryShape query(const Request& request) const;
   [[nodiscard]] std::string parts(const Request& request) const;
   [[nodiscard]] std::string matrix(const Request& request) const;
@@ -187,10 +193,7 @@ Server::Service::Service(const Database& database, const ServeOptions& options)
     : database_(database),
       options_(checked(options)),
       port_(listen()),
-      address_(fmt::format(
-          "http://{}:{}/",
-          options.host.find(':') == std::string::npos ? options.host : "[" + options.host + "]",
-          port_)),
+      address_(fmt::format("http://{}:{}/", serve::in_url(options.host), port_)),
       guard_(options.host, port_, options.token),
       turns_(static_cast<std::size_t>(resolve_threads(0))),
       uploads_(options) {
@@ -242,14 +245,11 @@ httplib::Server::HandlerResponse Server::Service::admit(const Request& request,
     return Handling::Handled;
   }
   if (request.get_header_value<std::uint64_t>("Content-Length") > options_.most_upload_bytes) {
-    fail(response, {413, fmt::format("The file is too large: this server takes at most {} MB.",
-                                     options_.most_upload_bytes >> 20)});
+    fail(response, too_large(options_));
     return Handling::Handled;
   }
   return Handling::Unhandled;
 }
-
-void Server::Service::get(const char* path, const Answer& answer) { http_.Get(path, answer); }
 
 template <class Make>
 void Server::Service::get_json(const char* path, bool heavy, const Make& make) {
@@ -261,7 +261,7 @@ void Server::Service::get_json(const char* path, bool heavy, const Make& make) {
 }
 
 void Server::Service::add_routes() {
-  get("/", [](const Request&, Response& response) {
+  http_.Get("/", [](const Request&, Response& response) {
     const std::string_view page = serve::app_page();
     response.set_content(page.data(), page.size(), "text/html; charset=utf-8");
   });
@@ -286,19 +286,20 @@ void Server::Service::add_routes() {
     return serve::match_json(query(request), stored(needed(request, "with")));
   });
   get_json("/api/matrix", true, [this](const Request& request) { return matrix(request); });
-  get("/api/thumbnail",
-      [this](const Request& request, Response& response) { thumbnail(request, response); });
-  get("/api/upload", [this](const Request& request, Response& response) {
+  http_.Get("/api/thumbnail",
+            [this](const Request& request, Response& response) { thumbnail(request, response); });
+  http_.Get("/api/upload", [this](const Request& request, Response& response) {
     const std::string id = needed(request, "id");
     const auto state = uploads_.state(id);
-    if (!state) throw Failure{404, "There is no such upload; it may have been too long ago."};
+    if (!state) throw no_such_upload();
     response.set_content(serve::upload_json(id, *state), kJson);
   });
-  get("/api/upload/events",
-      [this](const Request& request, Response& response) { report_events(request, response); });
+  http_.Get("/api/upload/events", [this](const Request& request, Response& response) {
+    report_events(request, response);
+  });
   http_.Delete("/api/upload", [this](const Request& request, Response& response) {
     if (!uploads_.cancel(needed(request, "id"))) {
-      throw Failure{404, "There is no such upload; it may have been too long ago."};
+      throw no_such_upload();
     }
     response.status = 204;
   });
@@ -323,6 +324,12 @@ StoredShape Server::Service::stored(const std::string& name) const {
   return database_.get(name);
 }
 
+std::shared_ptr<const serve::Uploaded> Server::Service::uploaded(const std::string& id) const {
+  auto found = uploads_.result(id);
+  if (!found) throw no_such_upload();
+  return found;
+}
+
 QueryShape Server::Service::query(const Request& request) const {
   const auto id = parameter(request, "upload");
   if (!id) {
@@ -330,17 +337,14 @@ QueryShape Server::Service::query(const Request& request) const {
     return {name, true, stored(name).data};
   }
   if (request.has_param("name")) throw Failure{400, "give either name or upload, not both"};
-  const auto uploaded = uploads_.result(*id);
-  if (!uploaded) throw Failure{404, "There is no such upload; it may have been too long ago."};
-  return {uploaded->name, false, uploaded->data};
+  const auto found = uploaded(*id);
+  return {found->name, false, found->data};
 }
 
 std::string Server::Service::parts(const Request& request) const {
   const auto id = parameter(request, "upload");
   if (!id) return serve::parts_json(stored(needed(request, "name")));
-  const auto uploaded = uploads_.result(*id);
-  if (!uploaded) throw Failure{404, "There is no such upload; it may have been too long ago."};
-  return uploaded->parts;
+  return uploaded(*id)->parts;
 }
 
 std::string Server::Service::matrix(const Request& request) const {
@@ -390,8 +394,7 @@ void Server::Service::receive(const Request& request, Response& response,
     return !refused;
   });
   if (room.too_large()) {
-    throw Failure{413, fmt::format("The file is too large: this server takes at most {} MB.",
-                                   options_.most_upload_bytes >> 20)};
+    throw too_large(options_);
   }
   if (refused) throw Failure{503, "Too many files are being sent; try again in a moment."};
   if (!complete) throw Failure{400, "The file did not arrive as a whole."};
@@ -404,7 +407,7 @@ void Server::Service::receive(const Request& request, Response& response,
 void Server::Service::report_events(const Request& request, Response& response) {
   const std::string id = needed(request, "id");
   if (!uploads_.state(id)) {
-    throw Failure{404, "There is no such upload; it may have been too long ago."};
+    throw no_such_upload();
   }
   auto version = std::make_shared<std::uint64_t>(0);
   response.set_chunked_content_provider(
@@ -416,9 +419,7 @@ void Server::Service::report_events(const Request& request, Response& response) 
         *version = state->version;
         const std::string event = "data: " + serve::upload_json(id, *state) + "\n";
         if (!sink.write(event.data(), event.size())) return false;
-        const bool over =
-            state->stage != serve::Stage::kWaiting && state->stage != serve::Stage::kWorking;
-        if (over) sink.done();
+        if (!serve::is_open(state->stage)) sink.done();
         return true;
       });
 }

@@ -22,8 +22,6 @@ constexpr std::size_t kMostOpen = 6;    // those that wait included
 constexpr std::size_t kKept = 12;       // in all, finished ones included
 constexpr std::size_t kReadAtOnce = 4;  // files of the largest size that may be read at once
 
-bool is_open(Stage stage) { return stage == Stage::kWaiting || stage == Stage::kWorking; }
-
 }  // namespace
 
 struct Uploads::Job {

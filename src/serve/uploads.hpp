@@ -28,6 +28,11 @@ struct Uploaded {
 
 enum class Stage { kWaiting, kWorking, kDone, kFailed, kCancelled };
 
+/// Whether more is to come.
+[[nodiscard]] inline bool is_open(Stage stage) {
+  return stage == Stage::kWaiting || stage == Stage::kWorking;
+}
+
 /// How far a file has come.
 struct UploadState {
   Stage stage = Stage::kWaiting;

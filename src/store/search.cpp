@@ -25,16 +25,25 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBlockExtension = ".block";
 
+// Rows of shapes with their signatures, as `rest` chooses and orders them.
+SQLite::Statement select_signatures(SQLite::Database& connection, const char* rest) {
+  return {connection, fmt::format("SELECT {}, signatures.signature FROM shapes JOIN signatures ON "
+                                  "signatures.id = shapes.signature {}",
+                                  store::kShapeColumns, rest)};
+}
+
+// Of a row of select_signatures().
+Signature signature_of(SQLite::Statement& row, const ShapeInfo& info, const fs::path& file) {
+  return store::read_signature(row.getColumn(7), info.name, file);
+}
+
 // Calls visit(info, signature) for each shape by name.
 template <class Visit>
 void each_signature(SQLite::Database& connection, const fs::path& file, const Visit& visit) {
-  SQLite::Statement statement(
-      connection, fmt::format("SELECT {}, signatures.signature FROM shapes JOIN signatures ON "
-                              "signatures.id = shapes.signature ORDER BY name",
-                              store::kShapeColumns));
+  SQLite::Statement statement = select_signatures(connection, "ORDER BY name");
   while (statement.executeStep()) {
     ShapeInfo info = store::read_shape(statement, file).info;
-    Signature signature = store::read_signature(statement.getColumn(7), info.name, file);
+    Signature signature = signature_of(statement, info, file);
     visit(std::move(info), std::move(signature));
   }
 }
@@ -126,14 +135,11 @@ std::vector<LookAlike> score_all(SQLite::Database& connection, const fs::path& f
 std::optional<LookAlike> confirmed(SQLite::Database& connection, const fs::path& file,
                                    const std::string& name, double score, const Signature& query,
                                    const MatchOptions& options) {
-  SQLite::Statement statement(
-      connection, fmt::format("SELECT {}, signatures.signature FROM shapes JOIN signatures ON "
-                              "signatures.id = shapes.signature WHERE name = ?",
-                              store::kShapeColumns));
+  SQLite::Statement statement = select_signatures(connection, "WHERE name = ?");
   statement.bind(1, name);
   if (!statement.executeStep()) return std::nullopt;
   LookAlike hit{store::read_shape(statement, file).info, 0.0};
-  const Signature signature = store::read_signature(statement.getColumn(7), name, file);
+  const Signature signature = signature_of(statement, hit.info, file);
   hit.score = match_score(query, signature, options);
   if (hit.score != score) return std::nullopt;
   return hit;

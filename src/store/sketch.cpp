@@ -12,6 +12,8 @@
 #include <morsel/sketch.hpp>
 #include <utility>
 
+#include "base/box.hpp"
+#include "base/morton.hpp"
 #include "io/bytes.hpp"
 #include "picture/png.hpp"
 
@@ -45,30 +47,20 @@ std::vector<Merge> merges_of_parts(const Segmentation& s) {
 
 void choose_grid(Sketch& sketch) {
   if (sketch.points.empty()) return;
-  Vec3 low = sketch.points.front();
-  Vec3 high = low;
-  for (const Vec3& p : sketch.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3 size = high - low;
-  sketch.origin = low;
-  sketch.step = std::max({size.x, size.y, size.z}) / kMostSteps;
+  const Box box = bounding_box(sketch.points);
+  sketch.origin = box.low;
+  sketch.step = box.longest_side() / kMostSteps;
 }
 
 // The place of a grid point along a Morton curve: the bits of its coordinates in turn.
 std::uint32_t place_of(const Vec3& point, const Sketch& sketch) {
   const Vec3 offset = point - sketch.origin;
-  std::uint32_t place = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double along = axis == 0 ? offset.x : axis == 1 ? offset.y : offset.z;
+  const auto bits = [&](double along) {
     const auto steps =
         sketch.step > 0.0 ? static_cast<std::uint32_t>(std::lround(along / sketch.step)) : 0U;
-    for (int bit = 0; bit < kBits; ++bit) {
-      place |= ((std::min(steps, kMostSteps) >> bit) & 1U) << (3 * bit + axis);
-    }
-  }
-  return place;
+    return spread_bits(std::min(steps, kMostSteps));
+  };
+  return static_cast<std::uint32_t>(bits(offset.x) | bits(offset.y) << 1 | bits(offset.z) << 2);
 }
 
 Vec3 point_at(std::uint32_t place, const Sketch& sketch) {
