@@ -6,9 +6,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace morsel {
@@ -76,5 +78,27 @@ void parallel_sort(std::vector<Value>& values, int threads) {
   tbb::task_arena arena(threads);
   arena.execute([&] { tbb::parallel_sort(values.begin(), values.end()); });
 }
+
+/// Work for at most `threads` − 1 threads beside the caller's, who may go on meanwhile and does
+/// what is left of it in wait().
+class BackgroundTasks {
+ public:
+  explicit BackgroundTasks(int threads) : arena_(resolve_threads(threads)) {}
+  BackgroundTasks(const BackgroundTasks&) = delete;
+  BackgroundTasks& operator=(const BackgroundTasks&) = delete;
+  ~BackgroundTasks() { wait(); }
+
+  template <typename Task>
+  void run(Task task) {
+    arena_.execute([&] { group_.run(std::move(task)); });
+  }
+  void wait() {
+    arena_.execute([&] { group_.wait(); });
+  }
+
+ private:
+  tbb::task_arena arena_;
+  tbb::task_group group_;
+};
 
 }  // namespace morsel

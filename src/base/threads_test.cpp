@@ -37,5 +37,15 @@ TEST(ThreadsTest, SortsTheSameWithAnyNumberOfThreads) {
   }
 }
 
+TEST(ThreadsTest, BackgroundTasksAreDoneAfterTheWait) {
+  for (const int threads : {1, 2, 5}) {
+    std::vector<int> done(1000, 0);
+    BackgroundTasks tasks(threads);
+    for (int& one : done) tasks.run([&one] { one = 1; });
+    tasks.wait();
+    EXPECT_EQ(std::ranges::count(done, 1), 1000);
+  }
+}
+
 }  // namespace
 }  // namespace morsel

@@ -297,8 +297,10 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
                                         : std::accumulate(lambda.begin(), lambda.end(), 0.0) /
                                               static_cast<double>(lambda.size());
   const BasinGroups groups = group_basins(complex, vertex_cells, basins, spacing, threads);
-  const Pieces pieces = split_regions(complex, basins, groups.region_of_basin,
-                                      groups.object_of_basin, spacing, threads);
+  SightSearch sight(complex, interior, spacing, threads);
+  const Pieces pieces =
+      split_regions(complex, basins, groups.region_of_basin, groups.object_of_basin, spacing,
+                    threads, [&](std::uint32_t seed, double extent) { sight.add(seed, extent); });
   MergeTree tree;
   tree.natural_ratio = natural_merge_ratio();
   tree.necks = find_necks(complex, pieces.piece_of_cell, threads);
@@ -306,10 +308,9 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
   assign_points(complex,
                 label_vertices_by_piece(complex, vertex_cells, basins, groups, pieces, threads),
                 tree);
-  const SightTable sight = find_sight(complex, interior, pieces, spacing, threads);
   tree.merges = agglomerate(
       make_piece_graph(tree, piece_contacts(complex, basins, groups, pieces, tree.necks, spacing)),
-      sight);
+      sight.table());
   tree.component_count = mark_significant(tree.point_count, tree.merges);
   return tree;
 }

@@ -137,12 +137,16 @@ class Growth {
       places_[c].squared = squared;
       if (piece_[c] != piece) taken.push_back(c);
       piece_[c] = piece;
+      __builtin_prefetch(&inside_.neighbors[c]);
       buckets_[bucket_of(squared)].push_back(c);
     };
     take(seed, 0.0);
     for (std::size_t b = 0; b < buckets_.size(); ++b) {
+      for (std::size_t i = 0; i < std::min(kAhead, buckets_[b].size()); ++i) {
+        prefetch_neighbors(buckets_[b][i]);
+      }
       for (std::size_t i = 0; i < buckets_[b].size(); ++i) {
-        prefetch(buckets_[b], i);
+        if (i + kAhead < buckets_[b].size()) prefetch_neighbors(buckets_[b][i + kAhead]);
         const std::uint32_t c = buckets_[b][i];
         const double reached = places_[c].squared;
         if (bucket_of(reached) < b) continue;
@@ -158,10 +162,8 @@ class Growth {
   }
 
   // The cells lie scattered in memory, but which ones come next is known.
-  void prefetch(const std::vector<std::uint32_t>& queue, std::size_t at) const {
-    if (at + 8 < queue.size()) __builtin_prefetch(&inside_.neighbors[queue[at + 8]]);
-    if (at + 4 >= queue.size()) return;
-    for (const std::uint32_t d : inside_.neighbors[queue[at + 4]]) {
+  void prefetch_neighbors(std::uint32_t c) const {
+    for (const std::uint32_t d : inside_.neighbors[c]) {
       if (d != kNoCell) __builtin_prefetch(&places_[d]);
     }
   }
@@ -189,6 +191,7 @@ class Growth {
   };
 
   static constexpr double kBuckets = 64.0;
+  static constexpr std::size_t kAhead = 8;
 
   const Inside& inside_;
   std::vector<bool> may_seed_;
@@ -225,8 +228,8 @@ std::vector<bool> find_possible_seeds(const DelaunayComplex& complex, const Insi
 
 Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
                      const std::vector<std::uint32_t>& region_of_basin,
-                     const std::vector<std::uint32_t>& object_of_basin, double spacing,
-                     int threads) {
+                     const std::vector<std::uint32_t>& object_of_basin, double spacing, int threads,
+                     const std::function<void(std::uint32_t, double)>& on_piece) {
   const Inside inside = find_inside(complex, basins, region_of_basin, threads);
   const std::vector<double> extents = object_extents(inside, basins, object_of_basin);
   Growth growth(inside, find_possible_seeds(complex, inside, spacing));
@@ -237,6 +240,7 @@ Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
     pieces.region.push_back(region_of_basin[basin]);
     pieces.extent.push_back(extents[object_of_basin[basin]]);
     pieces.seed.push_back(cell);
+    on_piece(cell, pieces.extent.back());
     growth.add(seed, 2.0 * pieces.extent.back());
   };
   // The first pieces have the numbers of their regions.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <morsel/segment.hpp>
 #include <vector>
 
@@ -21,10 +22,12 @@ struct Pieces {
 /// `region_of_basin` groups the basins that no neck separates, numbered from 0 by their first
 /// basins; `object_of_basin` those that touch at all, by any number. `spacing` is the points' mean
 /// λ. Seeds are chosen farthest first through the inside, so the pieces depend on the shape alone,
-/// not on its pose or density. Cost: O(c log p) for p pieces.
+/// not on its pose or density. `on_piece` hears of each piece's seed and extent before it grows.
+/// Cost: O(c log p) for p pieces.
 [[nodiscard]] Pieces split_regions(const DelaunayComplex& complex, const Basins& basins,
                                    const std::vector<std::uint32_t>& region_of_basin,
                                    const std::vector<std::uint32_t>& object_of_basin,
-                                   double spacing, int threads);
+                                   double spacing, int threads,
+                                   const std::function<void(std::uint32_t, double)>& on_piece);
 
 }  // namespace morsel

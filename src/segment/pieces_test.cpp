@@ -67,12 +67,23 @@ class Reference {
   std::vector<std::uint32_t> piece_;
 };
 
-TEST(PiecesTest, AreVoronoiRegionsOfSeedsChosenFarthestFirst) {
-  const Stages s = shapes::run_stages(shapes::noisy(shapes::torus(2500, 2.0, 0.6), 0.01));
+Pieces split(const Stages& s, int threads) {
   const Grouping grouping = group(s);
   constexpr double kSpacing = 0.1;
-  const Pieces pieces =
-      split_regions(s.complex, s.basins, grouping.regions, grouping.objects, kSpacing, 2);
+  Pieces told;
+  Pieces pieces = split_regions(s.complex, s.basins, grouping.regions, grouping.objects, kSpacing,
+                                threads, [&](std::uint32_t seed, double extent) {
+                                  told.seed.push_back(seed);
+                                  told.extent.push_back(extent);
+                                });
+  EXPECT_EQ(told.seed, pieces.seed);
+  EXPECT_EQ(told.extent, pieces.extent);
+  return pieces;
+}
+
+TEST(PiecesTest, AreVoronoiRegionsOfSeedsChosenFarthestFirst) {
+  const Stages s = shapes::run_stages(shapes::noisy(shapes::torus(2500, 2.0, 0.6), 0.01));
+  const Pieces pieces = split(s, 2);
   ASSERT_GT(pieces.count(), s.basins.count());
   Reference reference(s);
   for (std::uint32_t p = 0; p < pieces.count(); ++p) {
@@ -91,12 +102,8 @@ TEST(PiecesTest, AreVoronoiRegionsOfSeedsChosenFarthestFirst) {
 
 TEST(PiecesTest, ThreadsChangeNothing) {
   const Stages s = shapes::run_stages(shapes::dumbbell(4000));
-  const Grouping grouping = group(s);
-  const auto split = [&](int threads) {
-    return split_regions(s.complex, s.basins, grouping.regions, grouping.objects, 0.1, threads);
-  };
-  EXPECT_EQ(split(1).piece_of_cell, split(2).piece_of_cell);
-  EXPECT_EQ(split(1).seed, split(2).seed);
+  EXPECT_EQ(split(s, 1).piece_of_cell, split(s, 2).piece_of_cell);
+  EXPECT_EQ(split(s, 1).seed, split(s, 2).seed);
 }
 
 }  // namespace

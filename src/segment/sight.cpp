@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "base/threads.hpp"
 #include "delaunay/balls.hpp"
 
 namespace morsel {
@@ -16,52 +16,72 @@ constexpr double kSightScale = 0.4;
 // Pairs farther apart, of weights below exp(-1.5²) = 0.1, are not looked at.
 constexpr double kSightReach = 1.5 * kSightScale;
 
-// A straight walk from cell to cell. Each corner is seen from the start along the way: x and y
-// across it, z along it, 1 at the end. The way leaves a cell through the facet whose image holds
-// the origin.
+// How many walks take turns: each waits for memory at every step, and meanwhile the others go on.
+constexpr std::size_t kAbreast = 12;
+
+// A straight walk from cell to cell along the segment between two cells' centroids. Each corner is
+// seen from the start along the way: x and y across it, z along it, 1 at the end. The way leaves a
+// cell through the facet whose image holds the origin.
 class SegmentWalk {
  public:
-  SegmentWalk(const DelaunayComplex& complex, const Interior& interior)
-      : complex_(complex), interior_(interior) {}
+  enum class State : std::uint8_t {
+    kUnderway,
+    kInside,   // arrived, having left the inside for at most `tolerance` units in all
+    kOutside,  // has left it for longer
+  };
 
-  // True when the segment between the centroids `start` and `end` of two cells leaves the inside
-  // for at most `tolerance` units in all.
-  [[nodiscard]] bool stays_inside(std::uint32_t from, std::uint32_t to, const Vec3& start,
-                                  const Vec3& end, double tolerance) const {
-    const View view(start, end);
-    double allowed = tolerance / view.length();
-    double entered = 0.0;  // as shares of the segment, kept up to date outside only
-    std::uint32_t cell = from;
-    Facet facet = first_facet(view, from);
-    // A straight walk meets no cell twice; where cells are flat, rounding may turn it in a circle
-    // (R. P. Brent's test finds any within twice its length). Nothing outside was met on it.
-    std::uint32_t milestone = kNoCell;
-    std::size_t step = 0;
-    std::size_t next_milestone = 64;
-    while (cell != to) {
-      if (cell == milestone) return true;
-      if (++step == next_milestone) {
-        milestone = cell;
-        next_milestone *= 2;
-      }
-      const bool inner = interior_.side[cell] == CellSide::kInner;
-      const std::uint32_t next = complex_.neighbors[cell][facet.slot];
-      if (next == kNoCell) return false;
-      if (!inner) {
-        const double left = std::clamp(height(facet), entered, 1.0);
-        allowed -= left - entered;
-        if (allowed < 0.0) return false;
-        entered = left;
-      } else if (interior_.side[next] != CellSide::kInner) {
-        entered = std::clamp(height(facet), 0.0, 1.0);
-      }
-      if (facet.corners[0].z >= 1.0 && facet.corners[1].z >= 1.0 && facet.corners[2].z >= 1.0) {
-        return true;  // rounding hid the last cell
-      }
-      advance(view, cell, next, facet);
-      cell = next;
+  SegmentWalk(const DelaunayComplex& complex, const Interior& interior, std::uint32_t from,
+              std::uint32_t to, const Vec3& start, const Vec3& end, double tolerance)
+      : complex_(&complex),
+        interior_(&interior),
+        view_(start, end),
+        to_(to),
+        allowed_(tolerance / view_.length()) {
+    if (from == to) {
+      state_ = State::kInside;
+      return;
     }
-    return true;
+    cell_ = from;
+    inner_ = is_inner(from);
+    facet_ = first_facet(from);
+    enter_next();
+  }
+
+  [[nodiscard]] State state() const { return state_; }
+
+  // A step is two halves, each of which ends by asking for the memory that the next reads. The
+  // first looks from the cell just entered for its corner opposite the facet of entry, if the walk
+  // goes on.
+  void look() {
+    // The end may lie in a neighbour, as rounding has it.
+    const auto& [a, b, c] = facet_.corners;
+    const bool beyond = a.z >= 1.0 && b.z >= 1.0 && c.z >= 1.0;
+    if (!within_tolerance()) {
+      state_ = State::kOutside;
+    } else if (cell_ == to_ || beyond || walks_in_circle()) {
+      state_ = State::kInside;
+    } else {
+      vertex_ = complex_->cells[cell_][slot_of(complex_->neighbors[cell_], previous_)];
+      __builtin_prefetch(&complex_->vertices[vertex_]);
+    }
+  }
+
+  // The second goes from the facet of entry to that of leaving, where the new corner takes the
+  // place of the one that it hides, and through it.
+  void step() {
+    const Vec3 corner = view_.see(complex_->vertices[vertex_]);
+    // Which corners lie to the left of the ray from the origin through the new one.
+    unsigned left = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      left |= static_cast<unsigned>(turn(corner, facet_.corners[k]) >= 0.0) << k;
+    }
+    // The ray is met again between a left one and a right one; the third corner is hidden.
+    constexpr std::array<std::uint8_t, 8> kHidden{0, 2, 0, 0, 1, 2, 1, 0};
+    const std::size_t hidden = kHidden[left];
+    facet_.slot = slot_of(complex_->cells[cell_], facet_.vertices[hidden]);
+    facet_.corners[hidden] = corner;
+    facet_.vertices[hidden] = vertex_;
+    enter_next();
   }
 
  private:
@@ -123,16 +143,20 @@ class SegmentWalk {
     return sum > 0.0 ? (wa * a.z + wb * b.z + wc * c.z) / sum : a.z;
   }
 
+  [[nodiscard]] bool is_inner(std::uint32_t cell) const {
+    return interior_->side[cell] == CellSide::kInner;
+  }
+
   // The facet of the first cell whose image holds the origin most clearly.
-  [[nodiscard]] Facet first_facet(const View& view, std::uint32_t cell) const {
+  [[nodiscard]] Facet first_facet(std::uint32_t cell) const {
     Facet best{};
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t slot = 0; slot < 4; ++slot) {
       Facet facet{};
       facet.slot = slot;
       for (std::size_t k = 0; k < 3; ++k) {
-        facet.vertices[k] = complex_.cells[cell][static_cast<std::size_t>(kFacetSlots[slot][k])];
-        facet.corners[k] = view.see(complex_.vertices[facet.vertices[k]]);
+        facet.vertices[k] = complex_->cells[cell][static_cast<std::size_t>(kFacetSlots[slot][k])];
+        facet.corners[k] = view_.see(complex_->vertices[facet.vertices[k]]);
       }
       const auto& [a, b, c] = facet.corners;
       const double least = std::min({turn(a, b), turn(b, c), turn(c, a)});
@@ -143,54 +167,120 @@ class SegmentWalk {
     return best;
   }
 
-  // From the facet between `previous` and `cell` to the one through which `cell` is left: the new
-  // corner takes the place of the one that it hides.
-  void advance(const View& view, std::uint32_t previous, std::uint32_t cell, Facet& facet) const {
-    const auto& vertices = complex_.cells[cell];
-    const std::uint32_t vertex = vertices[slot_of(complex_.neighbors[cell], previous)];
-    const Vec3 corner = view.see(complex_.vertices[vertex]);
-    // Which corners lie to the left of the ray from the origin through the new one.
-    unsigned left = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-      left |= static_cast<unsigned>(turn(corner, facet.corners[k]) >= 0.0) << k;
+  // Through the facet held, out of the cell.
+  void enter_next() {
+    previous_ = cell_;
+    cell_ = complex_->neighbors[cell_][facet_.slot];
+
+    if (cell_ == kNoCell) {
+      state_ = State::kOutside;
+      return;
     }
-    // The ray is met again between a left one and a right one; the third corner is hidden.
-    constexpr std::array<std::uint8_t, 8> kHidden{0, 2, 0, 0, 1, 2, 1, 0};
-    const std::size_t hidden = kHidden[left];
-    facet.slot = slot_of(vertices, facet.vertices[hidden]);
-    facet.corners[hidden] = corner;
-    facet.vertices[hidden] = vertex;
+    __builtin_prefetch(&complex_->cells[cell_]);
+    __builtin_prefetch(&complex_->neighbors[cell_]);
+    __builtin_prefetch(&interior_->side[cell_]);
   }
 
-  const DelaunayComplex& complex_;
-  const Interior& interior_;
+  // The segment outside ends or begins at the facet held, or goes on.
+  [[nodiscard]] bool within_tolerance() {
+    const bool was_inner = std::exchange(inner_, is_inner(cell_));
+    if (was_inner && inner_) return true;
+    const double here = std::clamp(height(facet_), entered_, 1.0);
+    if (!was_inner) allowed_ -= here - entered_;
+    entered_ = here;
+    return allowed_ >= 0.0;
+  }
+
+  // A straight walk meets no cell twice; where cells are flat, rounding may turn it in a circle
+  // (R. P. Brent's test finds any within twice its length). Nothing outside was met on it.
+  [[nodiscard]] bool walks_in_circle() {
+    if (cell_ == milestone_) return true;
+    if (++step_ == next_milestone_) {
+      milestone_ = cell_;
+      next_milestone_ *= 2;
+    }
+    return false;
+  }
+
+  const DelaunayComplex* complex_;
+  const Interior* interior_;
+  View view_;
+  std::uint32_t to_;
+  double allowed_;        // outside, as a share of the segment
+  double entered_ = 0.0;  // where the segment last left or entered the inside, as a share
+  State state_ = State::kUnderway;
+  bool inner_ = true;  // the cell
+  std::uint32_t cell_ = kNoCell;
+  std::uint32_t previous_ = kNoCell;
+  std::uint32_t vertex_ = 0;
+  Facet facet_{};
+  std::uint32_t milestone_ = kNoCell;
+  std::size_t step_ = 0;
+  std::size_t next_milestone_ = 64;
 };
 
 }  // namespace
 
-SightTable find_sight(const DelaunayComplex& complex, const Interior& interior,
-                      const Pieces& pieces, double spacing, int threads) {
-  const std::size_t count = pieces.count();
+SightSearch::SightSearch(const DelaunayComplex& complex, const Interior& interior, double spacing,
+                         int threads)
+    : complex_(complex), interior_(interior), spacing_(spacing), walks_(threads) {}
+
+void SightSearch::add(std::uint32_t seed, double extent) {
+  places_.push_back({seed, cell_centroid(complex_, seed)});
+  Row& row = rows_.emplace_back();
+  walks_.run([this, places = places_, extent, &row] { fill(places, extent, row); });
+}
+
+// From the last of `places` to all near enough to count.
+void SightSearch::fill(const std::vector<Place>& places, double extent, Row& row) const {
+  const Place& from = places.back();
+  row.seen.assign(places.size(), 0.0F);
+  row.weight.assign(places.size(), 0.0F);
+  row.seen.back() = row.weight.back() = 1.0F;
+  struct Underway {
+    SegmentWalk walk;
+    std::size_t goal;
+  };
+  std::vector<Underway> underway;
+  const auto drop_ended = [&] {
+    std::erase_if(underway, [&](const Underway& one) {
+      if (one.walk.state() == SegmentWalk::State::kUnderway) return false;
+      row.seen[one.goal] = one.walk.state() == SegmentWalk::State::kInside ? 1.0F : 0.0F;
+      return true;
+    });
+  };
+  const auto start = [&](std::size_t goal) {
+    const Place& to = places[goal];
+    const double relative = distance(from.centroid, to.centroid) / extent;
+    if (!(relative < kSightReach)) return;
+    const double scaled = relative / kSightScale;
+    row.weight[goal] = static_cast<float>(std::exp(-scaled * scaled));
+    underway.push_back({SegmentWalk(complex_, interior_, from.cell, to.cell, from.centroid,
+                                    to.centroid, 0.5 * spacing_),
+                        goal});
+  };
+  std::size_t next = 0;
+  while (next + 1 < places.size() || !underway.empty()) {
+    while (next + 1 < places.size() && underway.size() < kAbreast) start(next++);
+    for (Underway& one : underway) one.walk.look();
+    drop_ended();
+    for (Underway& one : underway) one.walk.step();
+    drop_ended();
+  }
+}
+
+SightTable SightSearch::table() {
+  walks_.wait();
+  const std::size_t count = rows_.size();
   SightTable table;
-  table.seen.assign(count * count, 0.0F);
-  table.weight.assign(count * count, 0.0F);
-  const SegmentWalk walk(complex, interior);
-  std::vector<Vec3> place;
-  for (const std::uint32_t cell : pieces.seed) place.push_back(cell_centroid(complex, cell));
-  parallel_rows(count, threads, [&](std::size_t a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      const double relative = distance(place[a], place[b]) / pieces.extent[a];
-      if (!(relative < kSightReach)) continue;
-      const double scaled = relative / kSightScale;
-      table.seen[a * count + b] = table.seen[b * count + a] =
-          walk.stays_inside(pieces.seed[a], pieces.seed[b], place[a], place[b], 0.5 * spacing)
-              ? 1.0F
-              : 0.0F;
-      table.weight[a * count + b] = table.weight[b * count + a] =
-          static_cast<float>(std::exp(-scaled * scaled));
+  table.seen.resize(count * count);
+  table.weight.resize(count * count);
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      table.seen[a * count + b] = table.seen[b * count + a] = rows_[a].seen[b];
+      table.weight[a * count + b] = table.weight[b * count + a] = rows_[a].weight[b];
     }
-    table.seen[a * count + a] = table.weight[a * count + a] = 1.0F;
-  });
+  }
   return table;
 }
 

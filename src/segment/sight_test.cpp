@@ -43,25 +43,31 @@ double length_outside(const Stages& s, std::uint32_t from, std::uint32_t to) {
   return (1.0 - inside) * norm(way);
 }
 
+SightTable look_around(const Stages& s, const std::vector<std::uint32_t>& seeds, double extent,
+                       double spacing, int threads) {
+  SightSearch search(s.complex, s.interior, spacing, threads);
+  for (const std::uint32_t seed : seeds) search.add(seed, extent);
+  return search.table();
+}
+
 TEST(SightTest, SegmentsStayInsideWhereTheirCellsSaySo) {
   const Stages s = shapes::run_stages(shapes::noisy(shapes::torus(1500, 2.0, 0.7), 0.01));
-  Pieces pieces;
+  std::vector<std::uint32_t> seeds;
   for (std::uint32_t c = 0; c < s.complex.cell_count(); c += 97) {
-    if (s.interior.side[c] == CellSide::kInner) pieces.seed.push_back(c);
+    if (s.interior.side[c] == CellSide::kInner) seeds.push_back(c);
   }
-  pieces.region.assign(pieces.seed.size(), 0);
-  pieces.extent.assign(pieces.seed.size(), 100.0);  // every pair is near enough to be looked at
+  constexpr double kExtent = 100.0;  // every pair is near enough to be looked at
   constexpr double kSpacing = 0.1;
-  const SightTable table = find_sight(s.complex, s.interior, pieces, kSpacing, 2);
+  const SightTable table = look_around(s, seeds, kExtent, kSpacing, 2);
   std::size_t seen = 0;
   std::size_t pairs = 0;
-  for (std::size_t a = 0; a < pieces.count(); ++a) {
+  for (std::size_t a = 0; a < seeds.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const double outside = length_outside(s, pieces.seed[a], pieces.seed[b]);
+      const double outside = length_outside(s, seeds[a], seeds[b]);
       if (std::abs(outside - 0.5 * kSpacing) < 1e-6) continue;  // rounding decides
-      const float found = table.seen[a * pieces.count() + b];
+      const float found = table.seen[a * seeds.size() + b];
       EXPECT_EQ(found != 0.0F, outside < 0.5 * kSpacing) << a << " " << b << " " << outside;
-      EXPECT_EQ(found, table.seen[b * pieces.count() + a]);
+      EXPECT_EQ(found, table.seen[b * seeds.size() + a]);
       seen += found != 0.0F ? 1 : 0;
       ++pairs;
     }
@@ -72,13 +78,10 @@ TEST(SightTest, SegmentsStayInsideWhereTheirCellsSaySo) {
 
 TEST(SightTest, FarPairsDoNotCount) {
   const Stages s = shapes::run_stages(shapes::noisy(shapes::torus(1500, 2.0, 0.7), 0.01));
-  Pieces pieces;
-  pieces.seed = {s.basins.maximum.front(), s.basins.maximum.back()};
-  pieces.region = {0, 0};
+  const std::vector<std::uint32_t> seeds{s.basins.maximum.front(), s.basins.maximum.back()};
   const double apart =
-      distance(cell_centroid(s.complex, pieces.seed[0]), cell_centroid(s.complex, pieces.seed[1]));
-  pieces.extent.assign(2, apart / 0.7);
-  const SightTable table = find_sight(s.complex, s.interior, pieces, 0.1, 1);
+      distance(cell_centroid(s.complex, seeds[0]), cell_centroid(s.complex, seeds[1]));
+  const SightTable table = look_around(s, seeds, apart / 0.7, 0.1, 1);
   EXPECT_EQ(table.weight[1], 0.0F);
   EXPECT_EQ(table.weight[0], 1.0F);
 }
@@ -89,11 +92,9 @@ TEST(SightTest, RegularGridsAreSeenThrough) {
   Stages s;
   s.complex = triangulate(shapes::grid(7));
   s.interior.side.assign(s.complex.cell_count(), CellSide::kInner);
-  Pieces pieces;
-  for (std::uint32_t c = 0; c < s.complex.cell_count(); c += 5) pieces.seed.push_back(c);
-  pieces.region.assign(pieces.seed.size(), 0);
-  pieces.extent.assign(pieces.seed.size(), 1000.0);
-  const SightTable table = find_sight(s.complex, s.interior, pieces, 1.0, 2);
+  std::vector<std::uint32_t> seeds;
+  for (std::uint32_t c = 0; c < s.complex.cell_count(); c += 5) seeds.push_back(c);
+  const SightTable table = look_around(s, seeds, 1000.0, 1.0, 2);
   EXPECT_TRUE(std::ranges::all_of(table.seen, [](float seen) { return seen == 1.0F; }));
 }
 
