@@ -64,6 +64,7 @@ else
   segment "$data/meshes/bull.off" --sample 20000 --noise 0.003
   segment "$data/meshes/triceratops.off" --sample 20000 --noise 0.003
   segment "$data/points_3/kitten.xyz"
+  segment "$data/meshes/pig.off" --sample 20000
   segment "$data/points_3/hippo1.ply"
 fi
 

@@ -3,12 +3,13 @@
 # depends on, and puts it into DIR (default build/demo-data), complete or not at all. Of use here:
 #   meshes/bull.off          6,200 vertices, 12,396 triangles
 #   meshes/triceratops.off   2,832 vertices,  5,660 triangles
+#   meshes/pig.off             468 vertices,    891 triangles; open: its legs end in holes
 #   points_3/kitten.xyz      5,210 points with normals
 #   points_3/hippo1.ply      6,104 points with normals, binary; scanned from one side, so open
 set -euo pipefail
 
 target=${1:-build/demo-data}
-wanted=(meshes/bull.off meshes/triceratops.off points_3/kitten.xyz points_3/hippo1.ply)
+wanted=(meshes/bull.off meshes/triceratops.off meshes/pig.off points_3/kitten.xyz points_3/hippo1.ply)
 
 complete() {
   local file

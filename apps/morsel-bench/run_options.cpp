@@ -30,7 +30,7 @@ std::vector<double> RunOptions::noise_levels() const {
 }
 
 CloudOptions RunOptions::cloud(double noise_level) const {
-  return {.points = points, .noise = noise_level, .outliers = outliers, .seed = seed};
+  return {.points = points, .noise = noise_level, .outliers = outliers, .hole = hole, .seed = seed};
 }
 
 SegmentOptions RunOptions::segment() const {
@@ -63,6 +63,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--outliers", options.outliers,
                      "Outliers as a fraction of the samples, uniform in the bounding box grown by "
                      "half");
+  command.add_option("--hole", options.hole,
+                     "Radius of a hole around a random sample, as a fraction of the bounding-box "
+                     "diagonal");
   command.add_option("--ids", options.ids, "all, or RmodM such as 1mod4")->capture_default_str();
   command.add_option("--threads", options.threads, "Models at a time, one thread each")
       ->capture_default_str()
@@ -84,14 +87,10 @@ nlohmann::ordered_json report_head(const std::string& command, const RunOptions&
   head["program"] = "morsel-bench " + command;
   head["version"] = version();
   head["date"] = utc_now();
-  head["options"] = {{"ids", options.ids},
-                     {"points", options.points},
-                     {"noise", options.noise_levels()},
-                     {"outliers", options.outliers},
-                     {"threads", options.threads},
-                     {"seed", options.seed},
-                     {"method", options.method},
-                     {"denoise", options.denoise}};
+  head["options"] = {
+      {"ids", options.ids},           {"points", options.points}, {"noise", options.noise_levels()},
+      {"outliers", options.outliers}, {"hole", options.hole},     {"threads", options.threads},
+      {"seed", options.seed},         {"method", options.method}, {"denoise", options.denoise}};
   return head;
 }
 

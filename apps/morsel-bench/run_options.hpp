@@ -21,6 +21,7 @@ struct RunOptions {
   std::size_t points = 20000;
   std::vector<double> noise;  ///< one run over all models each; none means 0
   double outliers = 0.0;
+  double hole = 0.0;
   int threads = 2;  ///< models at a time; each model has one thread
   std::uint64_t seed = 1;
   std::string method = "default";

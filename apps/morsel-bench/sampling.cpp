@@ -16,6 +16,8 @@ namespace {
 
 // Sets the outliers apart from the samples, which stay the same for every share of outliers.
 constexpr std::uint64_t kOutlierStream = 0x6f75746c696572ULL;
+// Places the hole, the same for every level of noise and size of the hole.
+constexpr std::uint64_t kHoleStream = 0x686f6c65ULL;
 
 // Grown by half of itself about its middle.
 Box grown_box(std::span<const Vec3> points) {
@@ -36,6 +38,22 @@ void add_outliers(Cloud& cloud, const TriangleMesh& mesh, std::size_t count, std
   }
 }
 
+// A scan's gap: the samples in a ball around one of them are missing.
+void cut_hole(SurfaceSample& sample, const TriangleMesh& mesh, double radius, std::uint64_t seed) {
+  Random random(seed ^ kHoleStream);
+  const auto count = static_cast<double>(sample.points.size());
+  const Vec3 center = sample.points[static_cast<std::size_t>(random.uniform() * count)];
+  const double reach = radius * bounding_box(mesh.vertices).diagonal();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    if (distance(sample.points[i], center) < reach) continue;
+    sample.points[kept] = sample.points[i];
+    sample.triangle[kept++] = sample.triangle[i];
+  }
+  sample.points.resize(kept);
+  sample.triangle.resize(kept);
+}
+
 Vec3 centroid(const TriangleMesh& mesh, std::size_t face) {
   const auto& [a, b, c] = mesh.triangles[face];
   return (1.0 / 3.0) * (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]);
@@ -49,6 +67,10 @@ void CloudOptions::check() const {
     throw Error(ErrorCode::kUsage,
                 fmt::format("CloudOptions.outliers is {}; expected 0 to 1", outliers));
   }
+  if (!(hole >= 0.0 && hole < 1.0)) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("CloudOptions.hole is {}; expected 0 to below 1", hole));
+  }
 }
 
 std::uint64_t seed_of_model(std::uint64_t seed, int id) {
@@ -60,6 +82,7 @@ Cloud sample_cloud(const TriangleMesh& mesh, int id, const CloudOptions& options
   const std::uint64_t seed = seed_of_model(options.seed, id);
   SurfaceSample sample =
       sample_surface(mesh, {.count = options.points, .noise = options.noise, .seed = seed});
+  if (options.hole > 0.0) cut_hole(sample, mesh, options.hole, seed);
   Cloud cloud{.points = std::move(sample.points), .triangle = std::move(sample.triangle)};
   const double outliers = std::round(options.outliers * static_cast<double>(options.points));
   add_outliers(cloud, mesh, static_cast<std::size_t>(outliers), seed);

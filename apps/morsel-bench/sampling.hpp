@@ -14,7 +14,9 @@ struct CloudOptions {
   std::size_t points = 20000;  ///< on the surface
   double noise = 0.0;          ///< standard deviation as a fraction of the bounding-box diagonal
   double outliers = 0.0;       ///< as a fraction of `points`, uniform in the box grown by half
-  std::uint64_t seed = 1;      ///< of the whole run
+  double hole = 0.0;       ///< radius of a ball around a sample that takes those in it away, as a
+                           ///< fraction of the bounding-box diagonal
+  std::uint64_t seed = 1;  ///< of the whole run
 
   /// Throws Error(kUsage).
   void check() const;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <morsel/error.hpp>
+#include <vector>
 
 namespace morsel::bench {
 namespace {
@@ -44,6 +46,7 @@ TEST(Sampling, ChecksItsOptions) {
   EXPECT_THROW(CloudOptions{.points = 0}.check(), Error);
   EXPECT_THROW(CloudOptions{.noise = -0.1}.check(), Error);
   EXPECT_THROW(CloudOptions{.outliers = 1.5}.check(), Error);
+  EXPECT_THROW(CloudOptions{.hole = 1.0}.check(), Error);
 }
 
 TEST(FaceLabels, FollowTheMajority) {
@@ -60,6 +63,31 @@ TEST(FaceLabels, OfEmptyFacesComeFromTheNearestSampleAndNoOutlier) {
       .triangle = {0, 1, 2}};
   EXPECT_EQ(face_labels(tetrahedron(), cloud, std::vector<int>{7, 8, 9, 1}),
             (std::vector<int>{7, 8, 9, 7}));
+}
+
+TEST(Sampling, AHoleTakesAwayABallOfSamples) {
+  const TriangleMesh mesh = tetrahedron();
+  const Cloud whole = sample_cloud(mesh, 7, {.points = 5000});
+  const Cloud holed = sample_cloud(mesh, 7, {.points = 5000, .hole = 0.1});
+  const double reach = 0.1 * std::sqrt(3.0);
+  EXPECT_LT(holed.points.size(), whole.points.size());
+  EXPECT_EQ(holed.points.size(), holed.triangle.size());
+  // What is missing lies within the reach of one of the samples, which is missing too.
+  std::vector<Vec3> missing;
+  std::size_t next = 0;
+  for (const Vec3& p : whole.points) {
+    if (next < holed.points.size() && p == holed.points[next]) {
+      ++next;
+    } else {
+      missing.push_back(p);
+    }
+  }
+  EXPECT_EQ(next, holed.points.size());
+  const bool found = std::ranges::any_of(missing, [&](const Vec3& center) {
+    const auto near = [&](const Vec3& p) { return distance(p, center) < reach; };
+    return std::ranges::all_of(missing, near) && std::ranges::none_of(holed.points, near);
+  });
+  EXPECT_TRUE(found);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <morsel/delaunay.hpp>
+#include <morsel/vec3.hpp>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,22 @@ struct InteriorOptions {
   void check() const;
 };
 
+/// A gap in the surface that the inside was closed across.
+struct Opening {
+  Vec3 center;
+  double radius = 0.0;  ///< of a disk as large, in units
+};
+
 /// One side per cell, and what the labelling saw.
 struct Interior {
   std::vector<CellSide> side;  ///< (c)
   std::size_t inner_cells = 0;
   std::size_t outer_cells = 0;
   double volume = 0.0;  ///< of the inner cells, in cubed units
+  // Of the default method alone:
+  std::vector<Opening> openings;  ///< of the inside's surface, the widest first
+  double open_share = 0.0;        ///< of the inside's surface: what the openings take, 0 … 1
+  double bare_share = 0.0;        ///< of the points' surface: what has no inside behind it, 0 … 1
 };
 
 /// Labels each cell inner, outer or open. `lambda` is mean_neighbor_distance of the vertices.
@@ -46,10 +57,12 @@ struct Interior {
 /// Source: Dey, Giesen, Goswami 2004, section 2.
 ///
 /// Method::kDefault walks so with strict thresholds, which leaves two kinds of seeds, and floods
-/// from both over the remaining cells, strongest connection first.
+/// from both over the remaining cells, strongest connection first. Between the two, openings of the
+/// surface are closed that are small against the surface behind them.
 /// Differs: bigness is measured against the largest λ of a cell's corners, and no threshold decides
 /// the cells between the seeds. Cost: O(c log c).
 [[nodiscard]] Interior find_interior(const DelaunayComplex& complex,
+                                     const VertexCells& vertex_cells,
                                      const std::vector<double>& lambda,
                                      const InteriorOptions& options = {}, int threads = 0);
 

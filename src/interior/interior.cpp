@@ -7,10 +7,12 @@
 #include <morsel/interior.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "base/threads.hpp"
 #include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
+#include "interior/openings.hpp"
 
 namespace morsel {
 namespace {
@@ -145,21 +147,26 @@ void drop_flecks(const DelaunayComplex& complex, std::vector<CellSide>& side) {
   }
 }
 
-std::vector<CellSide> label_by_flood(const DelaunayComplex& complex,
-                                     const std::vector<double>& lambda, int threads) {
+Interior label_by_flood(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                        const std::vector<double>& lambda, int threads) {
   // A ball this many times larger than its corners' spacing cannot come from noise or sampling.
   constexpr double kSeedRatio = 4.0;
   constexpr double kSeedCosine = 0.5;  // 60 degrees
-  std::vector<CellSide> side(complex.cell_count(), CellSide::kOpen);
+  Interior interior;
+  interior.side.assign(complex.cell_count(), CellSide::kOpen);
   const std::vector<double> ratio = ball_ratios(complex, lambda, threads);
   const auto is_seed = [&](std::uint32_t cell) { return ratio[cell] > kSeedRatio; };
-  walk_from_outside(complex, kSeedCosine, is_seed, side);
-  for (std::uint32_t c = 0; c < side.size(); ++c) {
-    if (side[c] == CellSide::kOpen && is_seed(c)) side[c] = CellSide::kInner;
+  walk_from_outside(complex, kSeedCosine, is_seed, interior.side);
+  for (std::uint32_t c = 0; c < interior.side.size(); ++c) {
+    if (interior.side[c] == CellSide::kOpen && is_seed(c)) interior.side[c] = CellSide::kInner;
   }
-  flood(complex, ratio, side, threads);
-  drop_flecks(complex, side);
-  return side;
+  interior.bare_share = close_openings(complex, vertex_cells, lambda, interior.side, threads);
+  flood(complex, ratio, interior.side, threads);
+  drop_flecks(complex, interior.side);
+  Openings openings = find_openings(complex, lambda, interior.side, threads);
+  interior.openings = std::move(openings.list);
+  interior.open_share = openings.share;
+  return interior;
 }
 
 }  // namespace
@@ -175,12 +182,16 @@ void InteriorOptions::check() const {
   }
 }
 
-Interior find_interior(const DelaunayComplex& complex, const std::vector<double>& lambda,
-                       const InteriorOptions& options, int threads) {
+Interior find_interior(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                       const std::vector<double>& lambda, const InteriorOptions& options,
+                       int threads) {
   options.check();
   Interior interior;
-  interior.side = options.method == Method::kPaper ? label_as_published(complex, lambda, options)
-                                                   : label_by_flood(complex, lambda, threads);
+  if (options.method == Method::kPaper) {
+    interior.side = label_as_published(complex, lambda, options);
+  } else {
+    interior = label_by_flood(complex, vertex_cells, lambda, threads);
+  }
   for (std::size_t c = 0; c < interior.side.size(); ++c) {
     interior.outer_cells += interior.side[c] == CellSide::kOuter ? 1 : 0;
     if (interior.side[c] != CellSide::kInner) continue;

@@ -25,8 +25,9 @@ struct Labelled {
 Labelled label(const Points& points, const InteriorOptions& options = {}) {
   Labelled result;
   result.complex = triangulate(points);
-  const auto lambda = mean_neighbor_distance(result.complex, find_vertex_cells(result.complex));
-  result.interior = find_interior(result.complex, lambda, options);
+  const VertexCells vertex_cells = find_vertex_cells(result.complex);
+  const auto lambda = mean_neighbor_distance(result.complex, vertex_cells);
+  result.interior = find_interior(result.complex, vertex_cells, lambda, options);
   return result;
 }
 

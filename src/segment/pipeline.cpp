@@ -1,5 +1,6 @@
 // The stages in a row: plain values go in, plain values come out.
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <chrono>
@@ -59,6 +60,15 @@ std::vector<std::uint32_t> vertices_of_input(const DelaunayComplex& complex,
 // Below this share of the inner cells' number an inside is no solid but chance holes in a cloud.
 constexpr double kSmallestInside = 0.02;
 
+// A sheet bounds no solid: more of its surface than this has no inside behind it, or more of what
+// it bounds is open. Of a half sphere's inside a third is.
+constexpr double kBareSheet = 1.0 / 3.0;
+constexpr double kOpenSheet = 1.0 / 4.0;
+
+bool is_sheet(const Interior& interior) {
+  return interior.bare_share > kBareSheet || interior.open_share > kOpenSheet;
+}
+
 // More objects than this are rather the shreds of an open one.
 constexpr std::size_t kManyObjects = 5;
 
@@ -67,32 +77,59 @@ Verdict judge(const Segmentation& s) {
   if (s.complex.dimension < 3) return Verdict::kFlat;
   const auto cells = static_cast<double>(s.complex.cell_count());
   const bool inside = static_cast<double>(s.interior.inner_cells) > kSmallestInside * cells;
-  return inside && s.basins.count() > 0 ? Verdict::kSolid : Verdict::kNotSolid;
+  return inside && !is_sheet(s.interior) && s.basins.count() > 0 ? Verdict::kSolid
+                                                                 : Verdict::kNotSolid;
+}
+
+std::string describe_solid(const Segmentation& s) {
+  const std::size_t parts = s.parts.parts.size();
+  const std::size_t objects = s.tree.component_count;
+  const std::vector<Opening>& openings = s.interior.openings;
+  std::string text = std::to_string(parts) + (parts == 1 ? " part" : " parts");
+  if (objects > 1) text += " in " + std::to_string(objects) + " separate objects";
+  text += ".";
+  if (!openings.empty()) {
+    text += openings.size() == 1 ? " The surface was closed across an opening "
+                                 : " The surface was closed across " +
+                                       std::to_string(openings.size()) + " openings, the widest ";
+    text += fmt::format("{:.3g} units wide.", 2.0 * openings.front().radius);
+  }
+  if (objects > kManyObjects) {
+    text +=
+        " If the cloud shows one object, its surface has gaps: scan the missing side or give "
+        "more points.";
+  }
+  return text;
+}
+
+std::string describe_not_solid(const Segmentation& s) {
+  if (s.interior.bare_share > kBareSheet) {
+    return fmt::format(
+        "{:.0f}% of the surface has no inside behind it: the points bound no solid. Scan the "
+        "missing side.",
+        100.0 * s.interior.bare_share);
+  }
+  if (s.interior.open_share > kOpenSheet) {
+    return fmt::format(
+        "{:.0f}% of what the points enclose is open: they bound no solid. Scan the missing side.",
+        100.0 * s.interior.open_share);
+  }
+  return "No inside was found: the points bound no solid. Close large holes, scan the missing "
+         "side, "
+         "or give more points where walls are thin.";
 }
 
 std::string describe(const Segmentation& s) {
   switch (s.verdict) {
-    case Verdict::kSolid: {
-      const std::size_t parts = s.parts.parts.size();
-      const std::size_t objects = s.tree.component_count;
-      std::string text = std::to_string(parts) + (parts == 1 ? " part" : " parts");
-      if (objects > 1) text += " in " + std::to_string(objects) + " separate objects";
-      text += ".";
-      if (objects > kManyObjects) {
-        text +=
-            " If the cloud shows one object, its surface has gaps: scan the missing side or give "
-            "more points.";
-      }
-      return text;
-    }
+    case Verdict::kSolid:
+      return describe_solid(s);
     case Verdict::kTooFewPoints:
       return "The cloud has " + std::to_string(s.complex.vertices.size()) +
              " distinct points; a solid needs at least four, a good sample thousands.";
     case Verdict::kFlat:
       return "All points lie on one plane or line; scan the object from all sides.";
     case Verdict::kNotSolid:
-      return "No inside was found: the points bound no solid. Close large holes, scan the missing "
-             "side, or give more points where walls are thin.";
+      return describe_not_solid(s);
   }
   return {};
 }
@@ -128,7 +165,7 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
     return mean_neighbor_distance(s.complex, vertex_cells, options.threads);
   });
   s.interior = stages.run("interior", 0.75, [&] {
-    return find_interior(s.complex, lambda, options.interior, options.threads);
+    return find_interior(s.complex, vertex_cells, lambda, options.interior, options.threads);
   });
   s.basins = stages.run("basins", 0.85,
                         [&] { return find_basins(s.complex, s.interior, options.threads); });

@@ -358,6 +358,26 @@ TEST(SegmentTest, AnOpenSheetIsNoSolid) {
   EXPECT_EQ(s.verdict, Verdict::kNotSolid) << s.message;
 }
 
+TEST(SegmentTest, OpenScansAreClosedAndSayWhere) {
+  Points points = shapes::noisy(shapes::dumbbell(8000), 0.003);
+  std::erase_if(points, [](const Vec3& p) { return norm(p - Vec3{3.0, 0.0, 0.0}) < 0.5; });
+  const Segmentation s = segment(points);
+  ASSERT_EQ(s.verdict, Verdict::kSolid) << s.message;
+  EXPECT_EQ(s.parts.parts.size(), segment(shapes::dumbbell(8000)).parts.parts.size());
+  ASSERT_EQ(s.interior.openings.size(), 1U);
+  EXPECT_NE(s.message.find("closed across an opening"), std::string::npos) << s.message;
+  const auto report = nlohmann::json::parse(report_json(s, {}, "test"));
+  EXPECT_EQ(report.at("openings").size(), 1U);
+}
+
+TEST(SegmentTest, AHalfSphereIsNoSolid) {
+  Points points = shapes::noisy(shapes::sphere(8000), 0.003);
+  std::erase_if(points, [](const Vec3& p) { return p.z > 0.0; });
+  const Segmentation s = segment(points);
+  EXPECT_EQ(s.verdict, Verdict::kNotSolid);
+  EXPECT_NE(s.message.find("Scan the missing side"), std::string::npos) << s.message;
+}
+
 TEST(SegmentTest, FarFromTheOriginTheSamePartition) {
   // Coordinates on a grid, so that nothing is rounded by the move.
   const Points points = shapes::changed(general_dumbbell(5000), [](const Vec3& p) {

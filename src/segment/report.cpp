@@ -68,6 +68,14 @@ Json part_json(const Part& part, int index, const Segmentation& s) {
   return json;
 }
 
+Json openings_json(const std::vector<Opening>& openings) {
+  Json json = Json::array();
+  for (const Opening& opening : openings) {
+    json.push_back({{"center", vector_json(opening.center)}, {"radius", opening.radius}});
+  }
+  return json;
+}
+
 // `stability` is the factor of merge ratios over which the count stays the same; null: for ever.
 Json levels_json(const MergeTree& tree) {
   Json levels = Json::array();
@@ -99,6 +107,9 @@ std::string report_json(const Segmentation& segmentation, const SegmentOptions& 
                    {"spacing", s.denoised.spacing},
                    {"smoothing_rounds", s.denoised.rounds}};
   json["volume"] = s.interior.volume;
+  json["openings"] = openings_json(s.interior.openings);
+  json["open_share"] = s.interior.open_share;
+  json["bare_share"] = s.interior.bare_share;
   json["parts"] = Json::array();
   for (std::size_t i = 0; i < s.parts.parts.size(); ++i) {
     json["parts"].push_back(part_json(s.parts.parts[i], static_cast<int>(i), s));

@@ -25,7 +25,7 @@ inline Stages run_stages(const Points& points) {
   s.complex = triangulate(points);
   s.vertex_cells = find_vertex_cells(s.complex);
   s.lambda = mean_neighbor_distance(s.complex, s.vertex_cells);
-  s.interior = find_interior(s.complex, s.lambda);
+  s.interior = find_interior(s.complex, s.vertex_cells, s.lambda);
   s.basins = find_basins(s.complex, s.interior);
   return s;
 }

@@ -1,0 +1,365 @@
+#include "interior/openings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "base/threads.hpp"
+#include "base/union_find.hpp"
+#include "delaunay/balls.hpp"
+
+namespace morsel {
+namespace {
+
+// The surface around a pocket is larger than its opening by this factor: a half sphere, whose is
+// larger by two, is no pocket.
+constexpr double kWallsPerOpening = 3.0;
+// Smaller shares of the surface are not worth a pocket, nor a look for one.
+constexpr double kSmallestPocket = 0.01;
+constexpr int kMostPockets = 8;
+constexpr double kDeepCosine = 0.5;       // as in the walk from outside
+constexpr double kSmallestOpening = 2.0;  // radius over spacing; below, chance gaps of the sampling
+constexpr double kWideFacet = 4.0;  // circumradius over spacing: as of the balls that are seeds
+// λ² is this share of the area that each of uniformly random points on a plane stands for.
+constexpr double kAreaPerSquaredLambda = 1.88;
+
+constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Where the way between two neighbouring cells' centres is narrowest: the least radius of the
+// largest empty ball along it. Infinite from a cell to the one that its ball grows into.
+struct Passage {
+  double radius;
+  std::uint32_t a;
+  std::uint32_t b;  // a cell, or the number of cells: the unbounded outside
+
+  friend bool operator<(const Passage& x, const Passage& y) {
+    if (x.radius != y.radius) return x.radius > y.radius;
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  }
+};
+
+struct Facet {
+  Vec3 a, b, c;
+};
+
+Facet facet_of(const DelaunayComplex& complex, std::uint32_t cell, int slot) {
+  const auto corner = [&](int k) {
+    return complex.vertices[complex.cells[cell][kFacetSlots[slot][k]]];
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
+// Beyond the facet, as seen from the cell.
+bool is_beyond(const Facet& facet, const Vec3& point) {
+  return dot(cross(facet.b - facet.a, facet.c - facet.a), point - facet.a) > 0.0;
+}
+
+// Through which facet an outer cell's ball grows: that beyond which its centre lies, towards the
+// largest ball if there are two; -1 for a maximum.
+int way_up(const DelaunayComplex& complex, const std::vector<CellSide>& side, std::uint32_t c) {
+  int best = -1;
+  double largest = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const std::uint32_t d = complex.neighbors[c][i];
+    if (d != kNoCell && side[d] != CellSide::kOuter) continue;
+    const double radius = d == kNoCell ? kInfinity : complex.radii[d];
+    if (radius <= largest || !is_beyond(facet_of(complex, c, i), complex.centers[c])) continue;
+    largest = radius;
+    best = i;
+  }
+  return best;
+}
+
+std::vector<Passage> find_passages(const DelaunayComplex& complex,
+                                   const std::vector<CellSide>& side) {
+  std::vector<Passage> passages;
+  const auto unbounded = static_cast<std::uint32_t>(complex.cell_count());
+  for (std::uint32_t c = 0; c < unbounded; ++c) {
+    if (side[c] != CellSide::kOuter) continue;
+    const int up = way_up(complex, side, c);
+    for (int i = 0; i < 4; ++i) {
+      const std::uint32_t d = complex.neighbors[c][i];
+      if (i == up) {
+        passages.push_back({kInfinity, c, d == kNoCell ? unbounded : d});
+        continue;
+      }
+      if (d != kNoCell && (d < c || side[d] != CellSide::kOuter)) continue;
+      const double cosine =
+          d == kNoCell ? cos_hull_angle(complex, c, i) : cos_ball_angle(complex, c, d);
+      if (!(cosine > kDeepCosine)) continue;
+      const Facet facet = facet_of(complex, c, i);
+      const bool here = !is_beyond(facet, complex.centers[c]);
+      const bool there = d == kNoCell || is_beyond(facet, complex.centers[d]);
+      double radius =
+          d == kNoCell ? complex.radii[c] : std::min(complex.radii[c], complex.radii[d]);
+      if (here && there) radius = circumradius(facet.a, facet.b, facet.c);
+      passages.push_back({radius, c, d == kNoCell ? unbounded : d});
+    }
+  }
+  std::sort(passages.begin(), passages.end());
+  return passages;
+}
+
+// The largest outer balls that touch a vertex from its two sides.
+struct Poles {
+  std::uint32_t first = kNone;   // an outer cell, or the number of cells: the unbounded outside
+  std::uint32_t second = kNone;  // another on the opposite side
+  bool inner = false;            // an inner cell touches it instead
+};
+
+// Sum of the normals of the hull's facets around each vertex; zero within.
+std::vector<Vec3> hull_normals(const DelaunayComplex& complex) {
+  std::vector<Vec3> normals(complex.vertices.size());
+  for (std::uint32_t c = 0; c < complex.cell_count(); ++c) {
+    for (int i = 0; i < 4; ++i) {
+      if (complex.neighbors[c][i] != kNoCell) continue;
+      const Facet facet = facet_of(complex, c, i);
+      const Vec3 normal = cross(facet.b - facet.a, facet.c - facet.a);
+      for (const int slot : kFacetSlots[i]) {
+        Vec3& sum = normals[complex.cells[c][slot]];
+        sum = sum + normal;
+      }
+    }
+  }
+  return normals;
+}
+
+// Of the vertex v; `normal` is that of the hull there, zero within it.
+Poles poles_of(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+               const std::vector<CellSide>& side, std::uint32_t v, const Vec3& normal) {
+  constexpr double kOpposite = -0.5;
+  const auto unbounded = static_cast<std::uint32_t>(complex.cell_count());
+  const auto way = [&](std::uint32_t c) { return complex.centers[c] - complex.vertices[v]; };
+  Poles poles;
+  Vec3 direction = normal;
+  double largest = 0.0;
+  if (squared_norm(direction) > 0.0) poles.first = unbounded;
+  for (const std::uint32_t c : vertex_cells.of(v)) {
+    poles.inner = poles.inner || side[c] == CellSide::kInner;
+    if (side[c] != CellSide::kOuter || poles.first == unbounded) continue;
+    if (complex.radii[c] <= largest) continue;
+    largest = complex.radii[c];
+    poles.first = c;
+    direction = way(c);
+  }
+  if (poles.first == kNone || poles.inner) return poles;
+  largest = 0.0;
+  for (const std::uint32_t c : vertex_cells.of(v)) {
+    if (side[c] != CellSide::kOuter || complex.radii[c] <= largest) continue;
+    if (dot(way(c), direction) > kOpposite * norm(way(c)) * norm(direction)) continue;
+    largest = complex.radii[c];
+    poles.second = c;
+  }
+  return poles;
+}
+
+std::vector<Poles> find_poles(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                              const std::vector<CellSide>& side, int threads) {
+  const std::vector<Vec3> normals = hull_normals(complex);
+  std::vector<Poles> poles(complex.vertices.size());
+  parallel_ranges(poles.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      poles[v] = poles_of(complex, vertex_cells, side, static_cast<std::uint32_t>(v), normals[v]);
+    }
+  });
+  return poles;
+}
+
+// Sets of outer cells, joined widest passage first, with the surface that each would gain or lose
+// if it were inside.
+class Pockets {
+ public:
+  Pockets(const std::vector<Poles>& poles, const std::vector<double>& area, std::size_t cells)
+      : poles_(poles), area_(area), sets_(cells + 1), gain_(cells + 1, 0.0), samples_(cells + 1) {
+    for (std::uint32_t v = 0; v < poles.size(); ++v) {
+      const Poles& pole = poles[v];
+      if (pole.first == kNone) continue;
+      if (pole.inner) gain_[pole.first] -= area[v];
+      if (pole.second == kNone) continue;
+      for (const std::uint32_t c : {pole.first, pole.second}) {
+        gain_[c] += area[v];
+        samples_[c].push_back(v);
+      }
+    }
+  }
+
+  std::uint32_t root(std::uint32_t cell) { return sets_.root(cell); }
+  [[nodiscard]] double gain(std::uint32_t root) const { return gain_[root]; }
+
+  void join(std::uint32_t a, std::uint32_t b) {
+    if (samples_[a].size() < samples_[b].size()) std::swap(a, b);
+    double gain = gain_[a] + gain_[b];
+    for (const std::uint32_t v : samples_[b]) {
+      const std::uint32_t first = root(poles_[v].first);
+      const std::uint32_t second = root(poles_[v].second);
+      // Both faces belong to one set from now on.
+      if ((first == a && second == b) || (first == b && second == a)) gain -= 2.0 * area_[v];
+    }
+    std::vector<std::uint32_t> samples = std::move(samples_[a]);
+    samples.insert(samples.end(), samples_[b].begin(), samples_[b].end());
+    samples_[b] = {};
+    sets_.join(a, b);
+    const std::uint32_t joined = root(a);
+    gain_[joined] = gain;
+    samples_[joined] = std::move(samples);
+  }
+
+ private:
+  const std::vector<Poles>& poles_;
+  const std::vector<double>& area_;
+  UnionFind sets_;
+  std::vector<double> gain_;
+  std::vector<std::vector<std::uint32_t>> samples_;
+};
+
+struct Pocket {
+  double value = 0.0;          // surface gained beyond what the opening takes, an area
+  double radius = 0.0;         // of the opening
+  std::uint32_t cell = kNone;  // one of its cells
+};
+
+// The pocket that is worth most.
+Pocket find_pocket(const std::vector<Passage>& passages, const std::vector<CellSide>& side,
+                   const std::vector<Poles>& poles, const std::vector<double>& area) {
+  const auto unbounded = static_cast<std::uint32_t>(side.size());
+  Pockets pockets(poles, area, side.size());
+  Pocket best;
+  for (const Passage& passage : passages) {
+    if (side[passage.a] != CellSide::kOuter) continue;
+    if (passage.b != unbounded && side[passage.b] != CellSide::kOuter) continue;
+    const std::uint32_t a = pockets.root(passage.a);
+    const std::uint32_t b = pockets.root(passage.b);
+    if (a == b) continue;
+    const std::uint32_t outside = pockets.root(unbounded);
+    const double cost = kWallsPerOpening * std::numbers::pi * passage.radius * passage.radius;
+    for (const auto& [set, cell] : {std::pair{a, passage.a}, std::pair{b, passage.b}}) {
+      const double value = pockets.gain(set) - cost;
+      if (set != outside && value > best.value) best = {value, passage.radius, cell};
+    }
+    pockets.join(a, b);
+  }
+  return best;
+}
+
+// Labels the pocket inner, and of the other outer cells those that it reaches by wider passages
+// than the unbounded outside does.
+void fill_pocket(const std::vector<Passage>& passages, const Pocket& pocket,
+                 std::vector<CellSide>& side) {
+  const auto unbounded = static_cast<std::uint32_t>(side.size());
+  UnionFind sets(side.size() + 1);
+  for (const Passage& passage : passages) {
+    if (side[passage.a] != CellSide::kOuter) continue;
+    if (passage.b != unbounded && side[passage.b] != CellSide::kOuter) continue;
+    const std::uint32_t a = sets.root(passage.a);
+    const std::uint32_t b = sets.root(passage.b);
+    const std::uint32_t inside = sets.root(pocket.cell);
+    const std::uint32_t outside = sets.root(unbounded);
+    if ((a == inside && b == outside) || (a == outside && b == inside)) continue;
+    sets.join(a, b);
+  }
+  for (std::uint32_t c = 0; c < side.size(); ++c) {
+    if (side[c] == CellSide::kOuter && sets.root(c) == sets.root(pocket.cell)) {
+      side[c] = CellSide::kInner;
+    }
+  }
+}
+
+// A facet between inside and outside.
+struct WallFacet {
+  double area;
+  double spacing;
+  Vec3 center;
+  std::array<std::uint32_t, 3> corners;
+  bool wide;  // too wide for the sampling there
+};
+
+WallFacet wall_facet(const DelaunayComplex& complex, const std::vector<double>& lambda,
+                     std::uint32_t cell, int slot) {
+  WallFacet wall{};
+  for (std::size_t k = 0; k < 3; ++k) wall.corners[k] = complex.cells[cell][kFacetSlots[slot][k]];
+  for (const std::uint32_t v : wall.corners) wall.spacing = std::max(wall.spacing, lambda[v]);
+  const Facet facet = facet_of(complex, cell, slot);
+  wall.area = 0.5 * norm(cross(facet.b - facet.a, facet.c - facet.a));
+  wall.center = (1.0 / 3.0) * (facet.a + facet.b + facet.c);
+  wall.wide = circumradius(facet.a, facet.b, facet.c) > kWideFacet * wall.spacing;
+  return wall;
+}
+
+// The inside's surface: all its facets, in the order of cells.
+std::vector<WallFacet> find_walls(const DelaunayComplex& complex, const std::vector<double>& lambda,
+                                  const std::vector<CellSide>& side, int threads) {
+  const auto inner = [&](std::uint32_t c) { return c != kNoCell && side[c] == CellSide::kInner; };
+  return parallel_collect<WallFacet>(
+      side.size(), threads, [&](std::size_t begin, std::size_t end, std::vector<WallFacet>& walls) {
+        for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
+          for (int i = 0; inner(c) && i < 4; ++i) {
+            if (!inner(complex.neighbors[c][i])) walls.push_back(wall_facet(complex, lambda, c, i));
+          }
+        }
+      });
+}
+
+}  // namespace
+
+double close_openings(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                      const std::vector<double>& lambda, std::vector<CellSide>& side, int threads) {
+  std::vector<double> area(lambda.size());
+  std::ranges::transform(lambda, area.begin(),
+                         [](double l) { return kAreaPerSquaredLambda * l * l; });
+  const double total = std::accumulate(area.begin(), area.end(), 0.0);
+  std::vector<Passage> passages;
+  for (int round = 0;; ++round) {
+    const std::vector<Poles> poles = find_poles(complex, vertex_cells, side, threads);
+    double bare = 0.0;
+    for (std::size_t v = 0; v < area.size(); ++v) bare += poles[v].second != kNone ? area[v] : 0.0;
+    if (bare < kSmallestPocket * total || round == kMostPockets) return bare / total;
+    if (round == 0) passages = find_passages(complex, side);
+    const Pocket pocket = find_pocket(passages, side, poles, area);
+    if (pocket.value < kSmallestPocket * total) return bare / total;
+    fill_pocket(passages, pocket, side);
+  }
+}
+
+Openings find_openings(const DelaunayComplex& complex, const std::vector<double>& lambda,
+                       const std::vector<CellSide>& side, int threads) {
+  const std::vector<WallFacet> walls = find_walls(complex, lambda, side, threads);
+  UnionFind rims(complex.vertices.size());  // wide facets with a common corner close one opening
+  double surface = 0.0;
+  for (const WallFacet& wall : walls) {
+    surface += wall.area;
+    if (!wall.wide) continue;
+    rims.join(wall.corners[0], wall.corners[1]);
+    rims.join(wall.corners[0], wall.corners[2]);
+  }
+  struct Sum {
+    double area = 0.0;
+    Vec3 moment;
+    double spacing = 0.0;
+  };
+  std::map<std::uint32_t, Sum> sums;
+  for (const WallFacet& wall : walls) {
+    if (!wall.wide) continue;
+    Sum& sum = sums[rims.root(wall.corners[0])];
+    sum.area += wall.area;
+    sum.moment = sum.moment + wall.area * wall.center;
+    sum.spacing = std::max(sum.spacing, wall.spacing);
+  }
+  Openings openings;
+  for (const auto& [rim, sum] : sums) {
+    const double radius = std::sqrt(sum.area / std::numbers::pi);
+    if (radius < kSmallestOpening * sum.spacing) continue;
+    openings.list.push_back({(1.0 / sum.area) * sum.moment, radius});
+    openings.share += sum.area / surface;
+  }
+  std::ranges::stable_sort(openings.list, std::greater<>(), &Opening::radius);
+  return openings;
+}
+
+}  // namespace morsel

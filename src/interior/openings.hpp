@@ -1,0 +1,32 @@
+// Closes the inside of open surfaces across their openings.
+#pragma once
+
+#include <morsel/interior.hpp>
+#include <vector>
+
+namespace morsel {
+
+/// Finds pockets among the outer seeds: balls that the walk from outside reached through an opening
+/// of a third at most of the surface around them, where that surface has the outside on both of
+/// its faces. They become inner, and with them all that is reached from them by wider passages than
+/// from outside. A closed surface has none, since its own inside is behind the walls of its
+/// hollows. `side` holds the seeds of both kinds, all others are open. Returns the share of the
+/// surface that still has the outside on both faces.
+///
+/// Differs: the paper labels whatever its walk reaches as outer. Cost: O(v + c), and O(c log c)
+/// where a notable part of the surface has the outside on both faces.
+[[nodiscard]] double close_openings(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                                    const std::vector<double>& lambda, std::vector<CellSide>& side,
+                                    int threads);
+
+struct Openings {
+  std::vector<Opening> list;  ///< the widest first
+  double share = 0.0;         ///< of the inside's surface
+};
+
+/// Where facets between inner cells and others are too wide to be surface. Cost: O(v + c).
+[[nodiscard]] Openings find_openings(const DelaunayComplex& complex,
+                                     const std::vector<double>& lambda,
+                                     const std::vector<CellSide>& side, int threads);
+
+}  // namespace morsel
