@@ -25,7 +25,9 @@ constexpr double kSmallestPocket = 0.01;
 constexpr int kMostPockets = 8;
 constexpr double kDeepCosine = 0.5;       // as in the walk from outside
 constexpr double kSmallestOpening = 2.0;  // radius over spacing; below, chance gaps of the sampling
-constexpr double kWideFacet = 4.0;  // circumradius over spacing: as of the balls that are seeds
+constexpr double kNotableOpening =
+    0.25;                           // radius over the widest's; below, chance bridges of creases
+constexpr double kWideFacet = 6.0;  // longest edge over spacing
 // λ² is this share of the area that each of uniformly random points on a plane stands for.
 constexpr double kAreaPerSquaredLambda = 1.88;
 
@@ -107,11 +109,20 @@ std::vector<Passage> find_passages(const DelaunayComplex& complex,
   return passages;
 }
 
+// Whether an inner cell touches each vertex.
+std::vector<char> find_backed(const DelaunayComplex& complex, const std::vector<CellSide>& side) {
+  std::vector<char> backed(complex.vertices.size(), 0);
+  for (std::size_t c = 0; c < side.size(); ++c) {
+    if (side[c] != CellSide::kInner) continue;
+    for (const std::uint32_t v : complex.cells[c]) backed[v] = 1;
+  }
+  return backed;
+}
+
 // The largest outer balls that touch a vertex from its two sides.
 struct Poles {
   std::uint32_t first = kNone;   // an outer cell, or the number of cells: the unbounded outside
-  std::uint32_t second = kNone;  // another on the opposite side
-  bool inner = false;            // an inner cell touches it instead
+  std::uint32_t second = kNone;  // another on the opposite side, if no inner cell touches it
 };
 
 // Sum of the normals of the hull's facets around each vertex; zero within.
@@ -133,24 +144,25 @@ std::vector<Vec3> hull_normals(const DelaunayComplex& complex) {
 
 // Of the vertex v; `normal` is that of the hull there, zero within it.
 Poles poles_of(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-               const std::vector<CellSide>& side, std::uint32_t v, const Vec3& normal) {
+               const std::vector<CellSide>& side, std::uint32_t v, const Vec3& normal,
+               bool backed) {
   constexpr double kOpposite = -0.5;
-  const auto unbounded = static_cast<std::uint32_t>(complex.cell_count());
   const auto way = [&](std::uint32_t c) { return complex.centers[c] - complex.vertices[v]; };
   Poles poles;
   Vec3 direction = normal;
-  double largest = 0.0;
-  if (squared_norm(direction) > 0.0) poles.first = unbounded;
-  for (const std::uint32_t c : vertex_cells.of(v)) {
-    poles.inner = poles.inner || side[c] == CellSide::kInner;
-    if (side[c] != CellSide::kOuter || poles.first == unbounded) continue;
-    if (complex.radii[c] <= largest) continue;
-    largest = complex.radii[c];
-    poles.first = c;
-    direction = way(c);
+  if (squared_norm(normal) > 0.0) {
+    poles.first = static_cast<std::uint32_t>(complex.cell_count());
+  } else {
+    double largest = 0.0;
+    for (const std::uint32_t c : vertex_cells.of(v)) {
+      if (side[c] != CellSide::kOuter || complex.radii[c] <= largest) continue;
+      largest = complex.radii[c];
+      poles.first = c;
+      direction = way(c);
+    }
   }
-  if (poles.first == kNone || poles.inner) return poles;
-  largest = 0.0;
+  if (poles.first == kNone || backed) return poles;
+  double largest = 0.0;
   for (const std::uint32_t c : vertex_cells.of(v)) {
     if (side[c] != CellSide::kOuter || complex.radii[c] <= largest) continue;
     if (dot(way(c), direction) > kOpposite * norm(way(c)) * norm(direction)) continue;
@@ -161,12 +173,14 @@ Poles poles_of(const DelaunayComplex& complex, const VertexCells& vertex_cells,
 }
 
 std::vector<Poles> find_poles(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-                              const std::vector<CellSide>& side, int threads) {
+                              const std::vector<CellSide>& side, const std::vector<char>& backed,
+                              int threads) {
   const std::vector<Vec3> normals = hull_normals(complex);
   std::vector<Poles> poles(complex.vertices.size());
   parallel_ranges(poles.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      poles[v] = poles_of(complex, vertex_cells, side, static_cast<std::uint32_t>(v), normals[v]);
+      poles[v] = poles_of(complex, vertex_cells, side, static_cast<std::uint32_t>(v), normals[v],
+                          backed[v] != 0);
     }
   });
   return poles;
@@ -176,12 +190,13 @@ std::vector<Poles> find_poles(const DelaunayComplex& complex, const VertexCells&
 // if it were inside.
 class Pockets {
  public:
-  Pockets(const std::vector<Poles>& poles, const std::vector<double>& area, std::size_t cells)
+  Pockets(const std::vector<Poles>& poles, const std::vector<char>& backed,
+          const std::vector<double>& area, std::size_t cells)
       : poles_(poles), area_(area), sets_(cells + 1), gain_(cells + 1, 0.0), samples_(cells + 1) {
     for (std::uint32_t v = 0; v < poles.size(); ++v) {
       const Poles& pole = poles[v];
       if (pole.first == kNone) continue;
-      if (pole.inner) gain_[pole.first] -= area[v];
+      if (backed[v] != 0) gain_[pole.first] -= area[v];
       if (pole.second == kNone) continue;
       for (const std::uint32_t c : {pole.first, pole.second}) {
         gain_[c] += area[v];
@@ -227,9 +242,10 @@ struct Pocket {
 
 // The pocket that is worth most.
 Pocket find_pocket(const std::vector<Passage>& passages, const std::vector<CellSide>& side,
-                   const std::vector<Poles>& poles, const std::vector<double>& area) {
+                   const std::vector<Poles>& poles, const std::vector<char>& backed,
+                   const std::vector<double>& area) {
   const auto unbounded = static_cast<std::uint32_t>(side.size());
-  Pockets pockets(poles, area, side.size());
+  Pockets pockets(poles, backed, area, side.size());
   Pocket best;
   for (const Passage& passage : passages) {
     if (side[passage.a] != CellSide::kOuter) continue;
@@ -271,39 +287,60 @@ void fill_pocket(const std::vector<Passage>& passages, const Pocket& pocket,
   }
 }
 
-// A facet between inside and outside.
-struct WallFacet {
+// A facet between inside and outside that is too wide for the sampling there.
+struct WideFacet {
   double area;
   double spacing;
   Vec3 center;
   std::array<std::uint32_t, 3> corners;
-  bool wide;  // too wide for the sampling there
 };
 
-WallFacet wall_facet(const DelaunayComplex& complex, const std::vector<double>& lambda,
-                     std::uint32_t cell, int slot) {
-  WallFacet wall{};
-  for (std::size_t k = 0; k < 3; ++k) wall.corners[k] = complex.cells[cell][kFacetSlots[slot][k]];
-  for (const std::uint32_t v : wall.corners) wall.spacing = std::max(wall.spacing, lambda[v]);
-  const Facet facet = facet_of(complex, cell, slot);
-  wall.area = 0.5 * norm(cross(facet.b - facet.a, facet.c - facet.a));
-  wall.center = (1.0 / 3.0) * (facet.a + facet.b + facet.c);
-  wall.wide = circumradius(facet.a, facet.b, facet.c) > kWideFacet * wall.spacing;
-  return wall;
+double area_of(const Facet& facet) {
+  return 0.5 * norm(cross(facet.b - facet.a, facet.c - facet.a));
 }
 
-// The inside's surface: all its facets, in the order of cells.
-std::vector<WallFacet> find_walls(const DelaunayComplex& complex, const std::vector<double>& lambda,
-                                  const std::vector<CellSide>& side, int threads) {
+// Appends what visit(cell, slot, values) finds at the facets of the inside's surface, in the order
+// of cells.
+template <typename Value, typename Visit>
+std::vector<Value> visit_walls(const DelaunayComplex& complex, const std::vector<CellSide>& side,
+                               int threads, const Visit& visit) {
   const auto inner = [&](std::uint32_t c) { return c != kNoCell && side[c] == CellSide::kInner; };
-  return parallel_collect<WallFacet>(
-      side.size(), threads, [&](std::size_t begin, std::size_t end, std::vector<WallFacet>& walls) {
+  return parallel_collect<Value>(
+      side.size(), threads, [&](std::size_t begin, std::size_t end, std::vector<Value>& values) {
         for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
           for (int i = 0; inner(c) && i < 4; ++i) {
-            if (!inner(complex.neighbors[c][i])) walls.push_back(wall_facet(complex, lambda, c, i));
+            if (!inner(complex.neighbors[c][i])) visit(c, i, values);
           }
         }
       });
+}
+
+std::vector<WideFacet> find_wide_facets(const DelaunayComplex& complex,
+                                        const std::vector<double>& lambda,
+                                        const std::vector<CellSide>& side, int threads) {
+  const auto visit = [&](std::uint32_t c, int i, std::vector<WideFacet>& found) {
+    const Facet facet = facet_of(complex, c, i);
+    WideFacet wide{};
+    for (std::size_t k = 0; k < 3; ++k) wide.corners[k] = complex.cells[c][kFacetSlots[i][k]];
+    for (const std::uint32_t v : wide.corners) wide.spacing = std::max(wide.spacing, lambda[v]);
+    const double longest =
+        std::max({squared_distance(facet.a, facet.b), squared_distance(facet.b, facet.c),
+                  squared_distance(facet.c, facet.a)});
+    const double most = kWideFacet * wide.spacing;
+    if (longest <= most * most) return;
+    wide.area = area_of(facet);
+    wide.center = (1.0 / 3.0) * (facet.a + facet.b + facet.c);
+    found.push_back(wide);
+  };
+  return visit_walls<WideFacet>(complex, side, threads, visit);
+}
+
+double surface_area(const DelaunayComplex& complex, const std::vector<CellSide>& side) {
+  double sum = 0.0;
+  visit_walls<double>(complex, side, 1, [&](std::uint32_t c, int i, std::vector<double>& /*none*/) {
+    sum += area_of(facet_of(complex, c, i));
+  });
+  return sum;
 }
 
 }  // namespace
@@ -316,12 +353,16 @@ double close_openings(const DelaunayComplex& complex, const VertexCells& vertex_
   const double total = std::accumulate(area.begin(), area.end(), 0.0);
   std::vector<Passage> passages;
   for (int round = 0;; ++round) {
-    const std::vector<Poles> poles = find_poles(complex, vertex_cells, side, threads);
-    double bare = 0.0;
+    const std::vector<char> backed = find_backed(complex, side);
+    double bare = 0.0;  // at most
+    for (std::size_t v = 0; v < area.size(); ++v) bare += backed[v] != 0 ? 0.0 : area[v];
+    if (bare < kSmallestPocket * total) return 0.0;
+    const auto poles = find_poles(complex, vertex_cells, side, backed, threads);
+    bare = 0.0;
     for (std::size_t v = 0; v < area.size(); ++v) bare += poles[v].second != kNone ? area[v] : 0.0;
     if (bare < kSmallestPocket * total || round == kMostPockets) return bare / total;
     if (round == 0) passages = find_passages(complex, side);
-    const Pocket pocket = find_pocket(passages, side, poles, area);
+    const Pocket pocket = find_pocket(passages, side, poles, backed, area);
     if (pocket.value < kSmallestPocket * total) return bare / total;
     fill_pocket(passages, pocket, side);
   }
@@ -329,14 +370,13 @@ double close_openings(const DelaunayComplex& complex, const VertexCells& vertex_
 
 Openings find_openings(const DelaunayComplex& complex, const std::vector<double>& lambda,
                        const std::vector<CellSide>& side, int threads) {
-  const std::vector<WallFacet> walls = find_walls(complex, lambda, side, threads);
+  Openings openings;
+  const std::vector<WideFacet> facets = find_wide_facets(complex, lambda, side, threads);
+  if (facets.empty()) return openings;
   UnionFind rims(complex.vertices.size());  // wide facets with a common corner close one opening
-  double surface = 0.0;
-  for (const WallFacet& wall : walls) {
-    surface += wall.area;
-    if (!wall.wide) continue;
-    rims.join(wall.corners[0], wall.corners[1]);
-    rims.join(wall.corners[0], wall.corners[2]);
+  for (const WideFacet& facet : facets) {
+    rims.join(facet.corners[0], facet.corners[1]);
+    rims.join(facet.corners[0], facet.corners[2]);
   }
   struct Sum {
     double area = 0.0;
@@ -344,21 +384,24 @@ Openings find_openings(const DelaunayComplex& complex, const std::vector<double>
     double spacing = 0.0;
   };
   std::map<std::uint32_t, Sum> sums;
-  for (const WallFacet& wall : walls) {
-    if (!wall.wide) continue;
-    Sum& sum = sums[rims.root(wall.corners[0])];
-    sum.area += wall.area;
-    sum.moment = sum.moment + wall.area * wall.center;
-    sum.spacing = std::max(sum.spacing, wall.spacing);
+  for (const WideFacet& facet : facets) {
+    Sum& sum = sums[rims.root(facet.corners[0])];
+    sum.area += facet.area;
+    sum.moment = sum.moment + facet.area * facet.center;
+    sum.spacing = std::max(sum.spacing, facet.spacing);
   }
-  Openings openings;
+  const double surface = surface_area(complex, side);
   for (const auto& [rim, sum] : sums) {
     const double radius = std::sqrt(sum.area / std::numbers::pi);
     if (radius < kSmallestOpening * sum.spacing) continue;
     openings.list.push_back({(1.0 / sum.area) * sum.moment, radius});
     openings.share += sum.area / surface;
   }
+  if (openings.list.empty()) return openings;
   std::ranges::stable_sort(openings.list, std::greater<>(), &Opening::radius);
+  std::erase_if(openings.list, [widest = openings.list.front().radius](const Opening& opening) {
+    return opening.radius < kNotableOpening * widest;
+  });
   return openings;
 }
 

@@ -20,7 +20,7 @@ namespace morsel {
                                     int threads);
 
 struct Openings {
-  std::vector<Opening> list;  ///< the widest first
+  std::vector<Opening> list;  ///< the widest first, down to a quarter of its radius
   double share = 0.0;         ///< of the inside's surface
 };
 

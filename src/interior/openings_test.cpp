@@ -27,6 +27,15 @@ Points cut_at(Points points, double height) {
   return points;
 }
 
+// Without those nearer to `center` than `radius`.
+Points with_hole(Points points, const Vec3& center, double radius) {
+  std::erase_if(points, [&](const Vec3& p) { return distance(p, center) < radius; });
+  return points;
+}
+
+// A cube from -1 to 1.
+Points cube() { return shapes::moved(shapes::box(12000, {2.0, 2.0, 2.0}), {-1.0, -1.0, -1.0}); }
+
 // Of a unit ball below the plane z = height.
 double ball_below(double height) {
   const double cap = 1.0 - height;
@@ -42,17 +51,24 @@ TEST(OpeningsTest, AClosedSurfaceHasNone) {
   }
 }
 
-TEST(OpeningsTest, ABallIsClosedAcrossASmallOpening) {
+TEST(OpeningsTest, ABallIsClosedAcrossAnOpening) {
   for (const double height : {0.95, 0.8, 0.6}) {
     const Interior interior = label(cut_at(shapes::sphere(8000), height));
     EXPECT_NEAR(interior.volume, ball_below(height), 0.05 * kUnitBall) << height;
     EXPECT_LT(interior.bare_share, 0.02);
     EXPECT_LT(interior.open_share, 0.2);
-    ASSERT_EQ(interior.openings.size(), 1U) << height;
-    const double rim = std::sqrt(1.0 - height * height);
-    EXPECT_NEAR(interior.openings[0].radius, rim, 0.15 * rim);
+  }
+}
+
+TEST(OpeningsTest, ACubeIsClosedAcrossAHoleInAFace) {
+  for (const double radius : {0.5, 0.6, 0.7}) {
+    const Interior interior = label(with_hole(cube(), {0.0, 0.0, 1.0}, radius));
+    EXPECT_NEAR(interior.volume, 8.0, 0.4) << radius;
+    EXPECT_LT(interior.bare_share, 0.02);
+    ASSERT_EQ(interior.openings.size(), 1U) << radius;
+    EXPECT_NEAR(interior.openings[0].radius, radius, 0.2 * radius);
     EXPECT_NEAR(interior.openings[0].center.x, 0.0, 0.1);
-    EXPECT_NEAR(interior.openings[0].center.z, height, 0.1);
+    EXPECT_NEAR(interior.openings[0].center.z, 1.0, 0.15);
   }
 }
 
@@ -72,13 +88,12 @@ TEST(OpeningsTest, ASheetStaysBare) {
 }
 
 TEST(OpeningsTest, TheWidestComesFirst) {
-  Points points = cut_at(shapes::sphere(8000), 0.7);
-  std::erase_if(points, [](const Vec3& p) { return p.z < -0.9; });
+  const Points points = with_hole(with_hole(cube(), {0.0, 0.0, 1.0}, 0.5), {0.0, -1.0, 0.0}, 0.7);
   const Interior interior = label(points);
   ASSERT_EQ(interior.openings.size(), 2U);
   EXPECT_GT(interior.openings[0].radius, interior.openings[1].radius);
-  EXPECT_GT(interior.openings[0].center.z, 0.5);
-  EXPECT_LT(interior.openings[1].center.z, -0.5);
+  EXPECT_LT(interior.openings[0].center.y, -0.8);
+  EXPECT_GT(interior.openings[1].center.z, 0.8);
 }
 
 // A bowl with walls: the hollow is entered through a narrow mouth, but behind its surface is the
@@ -104,7 +119,7 @@ TEST(OpeningsTest, AHollowWithWallsIsNotFilled) {
 }
 
 TEST(OpeningsTest, ThreadsChangeNothing) {
-  const DelaunayComplex complex = triangulate(cut_at(shapes::sphere(8000), 0.8));
+  const DelaunayComplex complex = triangulate(with_hole(cube(), {0.0, 0.0, 1.0}, 0.5));
   const VertexCells vertex_cells = find_vertex_cells(complex);
   const auto lambda = mean_neighbor_distance(complex, vertex_cells);
   EXPECT_EQ(find_interior(complex, vertex_cells, lambda, {}, 1).side,
