@@ -46,7 +46,7 @@ struct Interior {
   double volume = 0.0;  ///< of the inner cells, in cubed units
   // Of the default method alone:
   std::vector<Opening>
-      openings;             ///< through which the outside had to be shut out, the widest first
+      openings;             ///< of the inside's surface, the widest first
   double open_share = 0.0;  ///< of the inside's surface: what the openings take, 0 … 1
   double bare_share = 0.0;  ///< of the points' surface: what has no inside behind it, 0 … 1
 };

@@ -165,9 +165,8 @@ Interior label_by_flood(const DelaunayComplex& complex, const VertexCells& verte
   const bool leaked = std::ranges::count(interior.side, CellSide::kOuter) != outer;
   flood(complex, ratio, interior.side, threads);
   drop_flecks(complex, interior.side);
-  Openings openings = find_openings(complex, lambda, interior.side, threads);
-  // Of a closed surface they are creases that the inside bridges.
-  if (leaked) interior.openings = std::move(openings.list);
+  Openings openings = find_openings(complex, lambda, interior.side, leaked, threads);
+  interior.openings = std::move(openings.list);
   interior.open_share = openings.share;
   return interior;
 }

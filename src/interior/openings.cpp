@@ -25,8 +25,10 @@ constexpr double kSmallestPocket = 0.01;
 constexpr int kMostPockets = 8;
 constexpr double kDeepCosine = 0.5;       // as in the walk from outside
 constexpr double kSmallestOpening = 2.0;  // radius over spacing; below, chance gaps of the sampling
-constexpr double kNotableOpening =
-    0.25;                           // radius over the widest's; below, chance bridges of creases
+// Smaller areas than these are chance bridges across creases: of the widest opening's where a leak
+// says that there is one, else of the inside's surface.
+constexpr double kNotableBesideWidest = 0.06;
+constexpr double kNotableShare = 0.01;
 constexpr double kWideFacet = 6.0;  // longest edge over spacing
 // λ² is this share of the area that each of uniformly random points on a plane stands for.
 constexpr double kAreaPerSquaredLambda = 1.88;
@@ -369,7 +371,7 @@ double close_openings(const DelaunayComplex& complex, const VertexCells& vertex_
 }
 
 Openings find_openings(const DelaunayComplex& complex, const std::vector<double>& lambda,
-                       const std::vector<CellSide>& side, int threads) {
+                       const std::vector<CellSide>& side, bool leaked, int threads) {
   Openings openings;
   const std::vector<WideFacet> facets = find_wide_facets(complex, lambda, side, threads);
   if (facets.empty()) return openings;
@@ -391,17 +393,16 @@ Openings find_openings(const DelaunayComplex& complex, const std::vector<double>
     sum.spacing = std::max(sum.spacing, facet.spacing);
   }
   const double surface = surface_area(complex, side);
+  double largest = 0.0;
+  for (const auto& [rim, sum] : sums) largest = std::max(largest, sum.area);
+  const double least = (leaked ? kNotableBesideWidest * largest : kNotableShare * surface);
   for (const auto& [rim, sum] : sums) {
     const double radius = std::sqrt(sum.area / std::numbers::pi);
-    if (radius < kSmallestOpening * sum.spacing) continue;
+    if (sum.area < least || radius < kSmallestOpening * sum.spacing) continue;
     openings.list.push_back({(1.0 / sum.area) * sum.moment, radius});
     openings.share += sum.area / surface;
   }
-  if (openings.list.empty()) return openings;
   std::ranges::stable_sort(openings.list, std::greater<>(), &Opening::radius);
-  std::erase_if(openings.list, [widest = openings.list.front().radius](const Opening& opening) {
-    return opening.radius < kNotableOpening * widest;
-  });
   return openings;
 }
 

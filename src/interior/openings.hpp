@@ -20,13 +20,14 @@ namespace morsel {
                                     int threads);
 
 struct Openings {
-  std::vector<Opening> list;  ///< the widest first, down to a quarter of its radius
+  std::vector<Opening> list;  ///< the widest first
   double share = 0.0;         ///< of the inside's surface
 };
 
-/// Where facets between inner cells and others are too wide to be surface. Cost: O(v + c).
+/// Where facets between inner cells and others are too wide to be surface. Unless the outside
+/// `leaked` in before, an opening must take a hundredth of the inside's surface. Cost: O(v + c).
 [[nodiscard]] Openings find_openings(const DelaunayComplex& complex,
                                      const std::vector<double>& lambda,
-                                     const std::vector<CellSide>& side, int threads);
+                                     const std::vector<CellSide>& side, bool leaked, int threads);
 
 }  // namespace morsel
