@@ -14,8 +14,9 @@ namespace {
 // Standard deviation, in RMS radii, by which blobs are smoothed: shapes of one kind need not agree
 // closer.
 constexpr double kSmoothing = 0.2;
-// Starts that are refined; more find nothing better on the development shapes.
-constexpr std::size_t kRefinedStarts = 6;
+// Starts that are refined. Of 40 pairs of three and four random blobs, 6 missed the best of 1500
+// starts twice, by up to a tenth; 12, 24 and 48 never.
+constexpr std::size_t kRefinedStarts = 12;
 
 Eigen::Matrix3d principal_axes(const std::vector<Blob>& blobs) {
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();

@@ -28,7 +28,7 @@ struct Alignment {
 
 /// The rotation about the centroids (or reflection when `mirror`) of the largest overlap: principal
 /// axes onto principal axes in all ways and rotations spread over all, the best of them refined.
-/// Cost: some ten milliseconds for twelve parts.
+/// Cost: some tens of milliseconds for twelve parts.
 [[nodiscard]] Alignment align(const std::vector<Blob>& target, const std::vector<Blob>& source,
                               bool mirror);
 
