@@ -5,10 +5,12 @@
 
 namespace morsel::bench {
 
+void add_database(CLI::App& app);
 void add_interior(CLI::App& app);
 void add_retrieval(CLI::App& app);
 void add_search(CLI::App& app);
 void add_segmentation(CLI::App& app);
+void add_stability(CLI::App& app);
 void add_time(CLI::App& app);
 
 }  // namespace morsel::bench

@@ -35,7 +35,9 @@ int main(int argc, char** argv) {
   morsel::bench::add_segmentation(app);
   morsel::bench::add_interior(app);
   morsel::bench::add_retrieval(app);
+  morsel::bench::add_stability(app);
   morsel::bench::add_search(app);
+  morsel::bench::add_database(app);
   morsel::bench::add_time(app);
   try {
     app.parse(argc, argv);

@@ -32,24 +32,26 @@ void add_query(const std::vector<bool>& relevant, std::size_t others, Retrieval&
 
 }  // namespace
 
-Retrieval rank(std::span<const double> scores, std::span<const std::string> categories) {
+Retrieval rank(std::span<const double> scores, std::span<const std::string> categories,
+               std::span<const std::size_t> queries) {
   const std::size_t count = categories.size();
   Retrieval sum;
-  std::size_t queries = 0;
-  for (std::size_t q = 0; q < count; ++q) {
-    const auto same = static_cast<std::size_t>(std::ranges::count(categories, categories[q]));
+  std::size_t counted = 0;
+  for (std::size_t row = 0; row < queries.size(); ++row) {
+    const std::size_t query = queries[row];
+    const auto same = static_cast<std::size_t>(std::ranges::count(categories, categories[query]));
     if (same < 2) continue;
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    order.erase(order.begin() + static_cast<std::ptrdiff_t>(q));
+    order.erase(order.begin() + static_cast<std::ptrdiff_t>(query));
     std::ranges::stable_sort(order, std::ranges::greater{},
-                             [&](std::size_t i) { return scores[q * count + i]; });
+                             [&](std::size_t i) { return scores[row * count + i]; });
     std::vector<bool> relevant;
-    for (const std::size_t i : order) relevant.push_back(categories[i] == categories[q]);
+    for (const std::size_t i : order) relevant.push_back(categories[i] == categories[query]);
     add_query(relevant, same - 1, sum);
-    ++queries;
+    ++counted;
   }
-  const double share = queries > 0 ? 1.0 / static_cast<double>(queries) : 0.0;
+  const double share = counted > 0 ? 1.0 / static_cast<double>(counted) : 0.0;
   return {share * sum.nearest, share * sum.first_tier, share * sum.second_tier, share * sum.gain};
 }
 

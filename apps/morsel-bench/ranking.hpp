@@ -19,9 +19,10 @@ struct Retrieval {
   double gain = 0.0;         ///< discounted cumulative gain over that of the ideal ranking
 };
 
-/// `scores` is (n, n) row-major, queries by stored shapes; query i is not looked for as stored
-/// shape i. Higher is better, ties by index.
+/// `scores` is (queries, n) row-major; `queries` says which of the n stored shapes each row's query
+/// is, and that one is passed over. Higher is better, ties by index.
 [[nodiscard]] Retrieval rank(std::span<const double> scores,
-                             std::span<const std::string> categories);
+                             std::span<const std::string> categories,
+                             std::span<const std::size_t> queries);
 
 }  // namespace morsel::bench

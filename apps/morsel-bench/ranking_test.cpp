@@ -14,7 +14,7 @@ TEST(RankTest, CountedByHand) {
                                    0.9, 1.0, 0.8, 0.2,  //
                                    0.5, 0.4, 1.0, 0.9,  //
                                    0.0, 0.0, 0.0, 1.0};
-  const Retrieval r = rank(scores, categories);
+  const Retrieval r = rank(scores, categories, std::vector<std::size_t>{0, 1, 2, 3});
   EXPECT_DOUBLE_EQ(r.nearest, 2.0 / 3.0);
   EXPECT_DOUBLE_EQ(r.first_tier, (0.5 + 1.0 + 0.5) / 3.0);
   EXPECT_DOUBLE_EQ(r.second_tier, 1.0);
@@ -25,8 +25,18 @@ TEST(RankTest, CountedByHand) {
 TEST(RankTest, TiesGoByIndexAndSelfIsNoHit) {
   const std::vector<std::string> categories{"a", "b", "a"};
   const std::vector<double> scores(9, 0.5);
-  const Retrieval r = rank(scores, categories);
+  const Retrieval r = rank(scores, categories, std::vector<std::size_t>{0, 1, 2});
   EXPECT_DOUBLE_EQ(r.nearest, 0.5);  // query 0 sees 1 first, query 2 sees 0 first
+}
+
+TEST(RankTest, AnyShapesInAnyOrderMayAsk) {
+  const std::vector<std::string> categories{"a", "b", "a", "b"};
+  const std::vector<double> scores{0.1, 0.2, 0.3, 0.4,    // of shape 3: sees 2, 1, 0
+                                   0.1, 0.2, 0.9, 0.05};  // of shape 2: sees 1, 0, 3
+  const Retrieval r = rank(scores, categories, std::vector<std::size_t>{3, 2});
+  EXPECT_DOUBLE_EQ(r.nearest, 0.0);
+  EXPECT_DOUBLE_EQ(r.second_tier, 1.0);
+  EXPECT_DOUBLE_EQ(r.gain, 1.0);
 }
 
 }  // namespace

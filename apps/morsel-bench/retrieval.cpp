@@ -2,21 +2,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
 
-#include "base/random.hpp"
+#include "base/box.hpp"
 #include "collection.hpp"
 #include "commands.hpp"
+#include "esf.hpp"
 #include "isolated.hpp"
 #include "match/paper.hpp"
+#include "pose.hpp"
 #include "ranking.hpp"
 #include "run_options.hpp"
 #include "sampling.hpp"
+#include "signature/tables.hpp"
+#include "stopwatch.hpp"
 #include "summary.hpp"
 
 namespace morsel::bench {
@@ -34,41 +37,12 @@ struct RetrievalOptions : RunOptions {
 struct Described {
   Signature signature;
   std::vector<double> d2;
+  std::vector<float> esf;
   double diagonal = 1.0;  // of the axis-aligned box in the shape's random pose
   double triangulate_seconds = 0.0;
   double signature_seconds = 0.0;
   std::string error;
 };
-
-// Pose and scale of a shape; half of the shapes are mirrored.
-std::vector<Vec3> posed(std::vector<Vec3> points, std::uint64_t seed) {
-  constexpr std::uint64_t kPoseStream = 0x706f7365ULL;
-  Random random(seed ^ kPoseStream);
-  const auto direction = [&random] {
-    const double x = random.normal();
-    const double y = random.normal();
-    const Vec3 v{x, y, random.normal()};
-    return (1.0 / norm(v)) * v;
-  };
-  const Vec3 a = direction();
-  const Vec3 across = cross(a, direction());
-  const Vec3 b = (1.0 / norm(across)) * across;
-  const Vec3 c = (random.below(2) == 0 ? 1.0 : -1.0) * cross(a, b);
-  const double scale = std::exp(4.0 * random.uniform() - 2.0);
-  const Vec3 shift = 10.0 * direction();
-  for (Vec3& p : points) p = scale * Vec3{dot(a, p), dot(b, p), dot(c, p)} + shift;
-  return points;
-}
-
-double box_diagonal(const std::vector<Vec3>& points) {
-  Vec3 low = points.front();
-  Vec3 high = low;
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return distance(low, high);
-}
 
 double seconds_of(const Segmentation& s, const std::string& stage) {
   for (const StageCost& cost : s.costs) {
@@ -81,14 +55,15 @@ json describe(const ClassedShape& shape, int id, const RetrievalOptions& options
   const Cloud cloud = sample_cloud(read_mesh(shape.path), id, options.cloud(noise));
   const std::vector<Vec3> points = posed(cloud.points, seed_of_model(options.seed, id));
   const Segmentation s = segment(points, options.segment());
-  const auto began = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Signature signature = make_signature(s, 1);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began;
+  const double taken = watch.seconds();
   return {{"signature", to_json(signature)},
           {"d2", d2_distribution(points, {.threads = 1})},
-          {"diagonal", box_diagonal(points)},
+          {"esf", esf(points)},
+          {"diagonal", bounding_box(points).diagonal()},
           {"triangulate", seconds_of(s, "triangulate")},
-          {"signature_seconds", taken.count()}};
+          {"signature_seconds", taken}};
 }
 
 Described described_of(const Outcome& outcome) {
@@ -97,61 +72,140 @@ Described described_of(const Outcome& outcome) {
   if (!result.error.empty()) return result;
   result.signature = signature_from_json(outcome.value.at("signature").get<std::string>());
   result.d2 = outcome.value.at("d2").get<std::vector<double>>();
+  result.esf = outcome.value.at("esf").get<std::vector<float>>();
   result.diagonal = outcome.value.at("diagonal").get<double>();
   result.triangulate_seconds = outcome.value.at("triangulate").get<double>();
   result.signature_seconds = outcome.value.at("signature_seconds").get<double>();
   return result;
 }
 
+using Score = std::function<double(const Described&, const Described&)>;
+
 struct Scoring {
-  const char* name;
-  std::function<double(const Described&, const Described&)> score;
+  std::string name;
+  Score score;
 };
 
-std::vector<Scoring> methods() {
-  const auto literal = [](const Described& a, const Described& b) {
-    return literal_paper_score(a.signature, b.signature, a.signature.size / a.diagonal,
-                               b.signature.size / b.diagonal);
+// The default score of some of its measures, `weight_of` each.
+Score score_of(const std::function<double(const ScoreTerm&)>& weight_of) {
+  return [weight_of](const Described& a, const Described& b) {
+    double distance = 0.0;
+    double weights = 0.0;
+    for (const ScoreTerm& term : explain_score(a.signature, b.signature)) {
+      distance += weight_of(term) * term.distance;
+      weights += weight_of(term);
+    }
+    return weights > 0.0 ? std::exp(-distance / weights) : 0.0;
   };
-  const auto d2 = [](const Described& a, const Described& b) {
-    return a.d2.size() == b.d2.size() ? -d2_distance(a.d2, b.d2) : -2.0;
-  };
-  return {{"morsel", [](const Described& a,
-                        const Described& b) { return match_score(a.signature, b.signature); }},
-          {"paper",
-           [](const Described& a, const Described& b) {
-             return match_score(a.signature, b.signature, {.method = Method::kPaper});
-           }},
-          {"paper, literally", literal},
-          {"D2", d2}};
 }
 
-std::vector<double> score_matrix(const Scoring& method, const std::vector<Described>& queries,
-                                 const std::vector<Described>& stored) {
-  std::vector<double> scores;
-  scores.reserve(queries.size() * stored.size());
-  for (const Described& query : queries) {
-    for (const Described& shape : stored) scores.push_back(method.score(query, shape));
+// What each block is worth: the score without it, and of it alone.
+void add_ablation(std::vector<Scoring>& all) {
+  for (const TableBlock& block : kTableBlocks) {
+    const std::string name = block.name;
+    all.push_back({"  without " + name, score_of([name](const ScoreTerm& term) {
+                     return term.name == name ? 0.0 : term.weight;
+                   })});
   }
-  return scores;
+  all.push_back({"  without solidity", score_of([](const ScoreTerm&) { return 1.0; })});
+  for (const TableBlock& block : kTableBlocks) {
+    const std::string name = block.name;
+    all.push_back({"  only " + name, score_of([name](const ScoreTerm& term) {
+                     return term.name == name ? 1.0 : 0.0;
+                   })});
+  }
+}
+
+double esf_score(const Described& a, const Described& b) {
+  if (a.esf.size() != b.esf.size()) return -2.0;  // the farthest that two can be apart
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.esf.size(); ++i) sum += std::abs(a.esf[i] - b.esf[i]);
+  return -sum;
+}
+
+std::vector<Scoring> methods() {
+  std::vector<Scoring> all;
+  all.push_back({"morsel", [](const Described& a, const Described& b) {
+                   return match_score(a.signature, b.signature);
+                 }});
+  add_ablation(all);
+  all.push_back({"paper", [](const Described& a, const Described& b) {
+                   return match_score(a.signature, b.signature, {.method = Method::kPaper});
+                 }});
+  all.push_back({"paper, literally", [](const Described& a, const Described& b) {
+                   return literal_paper_score(a.signature, b.signature,
+                                              a.signature.size / a.diagonal,
+                                              b.signature.size / b.diagonal);
+                 }});
+  all.push_back({"D2", [](const Described& a, const Described& b) {
+                   return a.d2.size() == b.d2.size() ? -d2_distance(a.d2, b.d2) : -2.0;
+                 }});
+  if (has_esf()) all.push_back({"ESF", esf_score});
+  return all;
+}
+
+// Which shapes ask: all, and those of every other class, for how far the figures depend on them.
+struct Askers {
+  std::string name;
+  std::vector<std::size_t> shapes;
+};
+
+std::vector<Askers> askers_of(const std::vector<std::string>& categories) {
+  std::vector<Askers> all{{"all", {}}, {"odd classes", {}}, {"even classes", {}}};
+  std::vector<std::string> classes;
+  for (std::size_t i = 0; i < categories.size(); ++i) {
+    const auto found = std::ranges::find(classes, categories[i]);
+    const auto number = static_cast<std::size_t>(found - classes.begin());
+    if (found == classes.end()) classes.push_back(categories[i]);
+    all[0].shapes.push_back(i);
+    all[1 + number % 2].shapes.push_back(i);
+  }
+  return all;
+}
+
+std::vector<Retrieval> rank_by(const Scoring& method, const std::vector<Described>& queries,
+                               const std::vector<Described>& stored,
+                               const std::vector<std::string>& categories,
+                               const std::vector<Askers>& askers) {
+  std::vector<Retrieval> ranked;
+  std::vector<double> all;  // rows of all shapes in turn, as the first askers have them
+  for (const Described& query : queries) {
+    for (const Described& shape : stored) all.push_back(method.score(query, shape));
+  }
+  for (const Askers& some : askers) {
+    std::vector<double> scores;
+    for (const std::size_t i : some.shapes) {
+      const auto row = all.begin() + static_cast<std::ptrdiff_t>(i * stored.size());
+      scores.insert(scores.end(), row, row + static_cast<std::ptrdiff_t>(stored.size()));
+    }
+    ranked.push_back(rank(scores, categories, some.shapes));
+  }
+  return ranked;
 }
 
 void print_and_add(const std::string& title, const std::vector<Described>& queries,
                    const std::vector<Described>& stored, const std::vector<std::string>& categories,
                    ordered_json& report) {
-  fmt::print("\n{}\n{:<18} {:>6} {:>6} {:>6} {:>6}\n", title, "score", "NN", "FT", "ST", "DCG");
+  fmt::print("\n{:<39} DCG of classes\n{:<20}", title, "score");
+  for (const char* column : {"NN", "FT", "ST", "DCG", "odd", "even"}) fmt::print("{:>7}", column);
+  fmt::print("\n");
+  const std::vector<Askers> askers = askers_of(categories);
   for (const Scoring& method : methods()) {
-    const Retrieval r = rank(score_matrix(method, queries, stored), categories);
-    fmt::print("{:<18} {:6.3f} {:6.3f} {:6.3f} {:6.3f}\n", method.name, r.nearest, r.first_tier,
-               r.second_tier, r.gain);
-    report["runs"].push_back({{"run", title},
-                              {"score", method.name},
-                              {"nearest_neighbor", r.nearest},
-                              {"first_tier", r.first_tier},
-                              {"second_tier", r.second_tier},
-                              {"discounted_gain", r.gain}});
+    const std::vector<Retrieval> ranked = rank_by(method, queries, stored, categories, askers);
+    const Retrieval& r = ranked[0];
+    fmt::print("{:<20}{:7.3f}{:7.3f}{:7.3f}{:7.3f}{:7.3f}{:7.3f}\n", method.name, r.nearest,
+               r.first_tier, r.second_tier, r.gain, ranked[1].gain, ranked[2].gain);
+    std::fflush(stdout);
+    for (std::size_t k = 0; k < askers.size(); ++k) {
+      report["runs"].push_back({{"run", title},
+                                {"score", method.name.substr(method.name.find_first_not_of(' '))},
+                                {"queries", askers[k].name},
+                                {"nearest_neighbor", ranked[k].nearest},
+                                {"first_tier", ranked[k].first_tier},
+                                {"second_tier", ranked[k].second_tier},
+                                {"discounted_gain", ranked[k].gain}});
+    }
   }
-  std::fflush(stdout);
 }
 
 void print_cost(const std::vector<Described>& shapes) {

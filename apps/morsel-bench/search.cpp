@@ -1,16 +1,15 @@
 // morsel-bench search: exact nearest signatures among very many.
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <memory>
 #include <morsel/morsel.hpp>
 
 #include "base/random.hpp"
 #include "commands.hpp"
 #include "flat_index.hpp"
+#include "perturb.hpp"
+#include "stopwatch.hpp"
 #include "summary.hpp"
 
 namespace morsel::bench {
@@ -23,23 +22,10 @@ struct SearchOptions {
   std::size_t queries = 200;
   std::size_t hits = 10;
   std::size_t checked = 3;
-  double noise = 0.02;
+  double noise = kPerturbation;
   std::uint64_t seed = 1;
   bool flat = false;
 };
-
-// Somewhere between two real shapes, nearer to the first, each value then changed on its own.
-Signature perturbed(const Signature& base, const Signature& mate, double noise, Random& random) {
-  Signature signature = base;
-  const double toward = 0.5 * random.uniform();
-  for (std::size_t i = 0; i < signature.tables.size(); ++i) {
-    const double from = base.tables[i];
-    const double value = from + toward * (mate.tables[i] - from);
-    const double changed = value + random.normal() * (noise * value + 1.0);
-    signature.tables[i] = static_cast<std::uint8_t>(std::lround(std::clamp(changed, 0.0, 255.0)));
-  }
-  return signature;
-}
 
 // Real signatures with a table for every one.
 struct Real {
@@ -59,8 +45,8 @@ Real read_real(const std::filesystem::path& path) {
   return real;
 }
 
-Signature perturbed(const Real& real, std::size_t base, const SearchOptions& options,
-                    Random& random) {
+Signature one_like(const Real& real, std::size_t base, const SearchOptions& options,
+                   Random& random) {
   return perturbed(real.signatures[base], real.signatures[random.below(real.names.size())],
                    options.noise, random);
 }
@@ -70,7 +56,7 @@ void write_large(const SearchOptions& options, const Real& real) {
   SearchBlockWriter writer(options.large);
   for (std::size_t i = 0; i < options.count; ++i) {
     const std::size_t base = i % real.names.size();
-    writer.add(fmt::format("{}-{}", real.names[base], i), perturbed(real, base, options, random));
+    writer.add(fmt::format("{}-{}", real.names[base], i), one_like(real, base, options, random));
   }
   writer.commit();
 }
@@ -88,17 +74,6 @@ std::vector<Hit> exhaustive(const SearchBlock& block, const Signature& query, st
   return hits;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point began) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-}
-
-// The time that this process had a core for; it does not count while others have it.
-double core_seconds() {
-  timespec time{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 // Times of queries one after another: waited for, and spent on a core.
 struct Times {
   std::vector<double> wall;
@@ -106,11 +81,10 @@ struct Times {
 
   template <class Work>
   auto measure(const Work& work) {
-    const auto began = std::chrono::steady_clock::now();
-    const double core_began = core_seconds();
+    const Stopwatch watch;
     auto result = work();
-    core.push_back(core_seconds() - core_began);
-    wall.push_back(seconds_since(began));
+    core.push_back(watch.core_seconds());
+    wall.push_back(watch.seconds());
     return result;
   }
   void print(const std::string& what) const {
@@ -162,18 +136,18 @@ void run_flat(const SearchOptions& options, const SearchBlock& block,
 void run(const SearchOptions& options) {
   if (options.flat) FlatIndex(0);  // throws where there is none
   const Real real = read_real(options.block);
-  auto began = std::chrono::steady_clock::now();
+  const Stopwatch writing;
   write_large(options, real);
   const auto bytes = static_cast<double>(std::filesystem::file_size(options.large));
   fmt::print("writing {} signatures: {:.1f} s, {:.0f} bytes each\n", options.count,
-             seconds_since(began), bytes / static_cast<double>(options.count));
-  began = std::chrono::steady_clock::now();
+             writing.seconds(), bytes / static_cast<double>(options.count));
+  const Stopwatch opening;
   const SearchBlock block = SearchBlock::open(options.large);
-  fmt::print("opening: {:.6f} s\n", seconds_since(began));
+  fmt::print("opening: {:.6f} s\n", opening.seconds());
   Random random(options.seed + 1);
   std::vector<Signature> queries;
   for (std::size_t q = 0; q < options.queries; ++q) {
-    queries.push_back(perturbed(real, random.below(real.names.size()), options, random));
+    queries.push_back(one_like(real, random.below(real.names.size()), options, random));
   }
   // The file is in memory afterwards.
   (void)block.search(queries.front(), options.hits);

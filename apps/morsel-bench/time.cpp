@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <memory>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include "base/threads.hpp"
 #include "commands.hpp"
 #include "shape.hpp"
+#include "stopwatch.hpp"
 #include "summary.hpp"
 
 namespace morsel::bench {
@@ -44,16 +44,6 @@ struct Timings {
   std::array<std::vector<double>, kContenderCount> seconds;
   std::vector<std::string> stages;
   std::vector<std::array<std::vector<double>, kContenderCount>> stage_seconds;  // none of CGAL
-};
-
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 double time_cgal(const std::vector<Kernel::Point_3>& points) {
