@@ -109,7 +109,7 @@ double changed_values(const Signature& a, const Signature& b) {
 }
 
 struct Moved {
-  std::vector<double> distances;  // to the stored signature of the same shape, ascending
+  std::vector<double> distances;  // to the stored signature of the same shape
   std::vector<double> changed;    // values of its tables
   Retrieval ranked;
 };
@@ -124,13 +124,13 @@ Moved compare(const std::vector<Signature>& measured, const std::vector<Signatur
     moved.changed.push_back(changed_values(own, measured[i]));
     for (const Signature& shape : stored) scores.push_back(match_score(measured[i], shape));
   }
-  std::ranges::sort(moved.distances);
   moved.ranked = rank(scores, categories, queries);
   return moved;
 }
 
 void print_and_add(const std::string& name, const Moved& moved, ordered_json& report) {
-  const std::vector<double>& d = moved.distances;
+  std::vector<double> d = moved.distances;
+  std::ranges::sort(d);
   const double high = d[(d.size() * 9 - 1) / 10];
   fmt::print("{:<18}{:8.3f}{:8.3f}{:8.3f}{:8.3f}{:8.0f}{:8.0f}  {:7.3f}{:7.3f}{:7.3f}{:7.3f}\n",
              name, median(d), high, d.back(), std::exp(-median(d)), median(moved.changed),
@@ -138,7 +138,7 @@ void print_and_add(const std::string& name, const Moved& moved, ordered_json& re
              moved.ranked.second_tier, moved.ranked.gain);
   std::fflush(stdout);
   report["runs"].push_back({{"run", name},
-                            {"distances", d},
+                            {"distances", moved.distances},
                             {"changed_values", moved.changed},
                             {"nearest_neighbor", moved.ranked.nearest},
                             {"first_tier", moved.ranked.first_tier},
@@ -156,7 +156,7 @@ void run(const StabilityOptions& options) {
   for (const ClassedShape& shape : shapes) categories.push_back(shape.category);
 
   ordered_json report = report_head("stability", options);
-  report["queries"] = queries.size();
+  for (const std::size_t query : queries) report["queries"].push_back(shapes[query].name);
   fmt::print("{} queries; D: distance to the same shape's stored signature\n", queries.size());
   fmt::print("{:<18}{:>8}{:>8}{:>8}{:>8}{:>16}  {:>7}{:>7}{:>7}{:>7}\n", "", "D", "90%", "most",
              "score", "values changed", "NN", "FT", "ST", "DCG");
