@@ -4,6 +4,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <iterator>
 #include <memory>
 
 namespace morsel::bench {
