@@ -101,7 +101,10 @@ class Database {
   [[nodiscard]] const std::filesystem::path& file() const;
   [[nodiscard]] std::size_t size() const;
 
-  /// By name. Cost: O(shapes).
+  /// All shapes by name, as of one state of the database: the same object until it changes.
+  /// Cost: O(shapes) after a change, else O(1).
+  [[nodiscard]] std::shared_ptr<const std::vector<ShapeInfo>> shapes() const;
+  /// A copy of those that pass, by name. Cost: O(shapes).
   [[nodiscard]] std::vector<ShapeInfo> list(const ShapeFilter& filter = {}) const;
   /// Nothing when there is no shape of that name.
   [[nodiscard]] std::optional<ShapeInfo> find(const std::string& name) const;
@@ -125,6 +128,10 @@ class Database {
   /// Cost: O(shapes²) scores on `threads` threads (0: all cores).
   [[nodiscard]] SimilarityMatrix matrix(const MatchOptions& options = {}, int threads = 0,
                                         const Progress* progress = nullptr) const;
+  /// As matrix(), of the shapes of these names alone. Throws Error(kInput) when one is missing.
+  [[nodiscard]] SimilarityMatrix matrix_of(std::span<const std::string> names,
+                                           const MatchOptions& options = {}, int threads = 0,
+                                           const Progress* progress = nullptr) const;
 
   /// Everything as JSON lines, by name; docs/database.md has the schema. Equal databases give equal
   /// bytes. Throws Error(kOutput) when the stream fails.

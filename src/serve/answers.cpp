@@ -1,15 +1,17 @@
 #include "serve/answers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/lower_case.hpp"
-#include "base/threads.hpp"
 #include "html/shape_json.hpp"
 #include "serve/stored_tree.hpp"
 
@@ -35,12 +37,15 @@ bool contains(const ShapeInfo& info, const std::string& text) {
          std::any_of(info.tags.begin(), info.tags.end(), has);
 }
 
-std::vector<ShapeInfo> chosen(const Database& database, const ShapeChoice& choice) {
-  std::vector<ShapeInfo> shapes = database.list({.class_name = choice.class_name, .tag = {}});
-  if (const std::string text = lower_case(choice.text); !text.empty()) {
-    std::erase_if(shapes, [&](const ShapeInfo& info) { return !contains(info, text); });
+std::vector<const ShapeInfo*> chosen(const std::vector<ShapeInfo>& shapes,
+                                     const ShapeChoice& choice) {
+  const std::string text = lower_case(choice.text);
+  std::vector<const ShapeInfo*> found;
+  for (const ShapeInfo& info : shapes) {
+    if (choice.class_name && info.class_name != *choice.class_name) continue;
+    if (text.empty() || contains(info, text)) found.push_back(&info);
   }
-  return shapes;
+  return found;
 }
 
 Json shares_of(const Signature& signature) {
@@ -55,12 +60,12 @@ std::string error_json(const std::string& message) { return text_of({{"error", m
 
 std::string database_json(const Database& database, const ServeOptions& options) {
   std::map<std::string, std::size_t> classes;
-  const std::vector<ShapeInfo> shapes = database.list();
-  for (const ShapeInfo& info : shapes) ++classes[info.class_name];
+  const auto shapes = database.shapes();
+  for (const ShapeInfo& info : *shapes) ++classes[info.class_name];
   Json json;
   json["morsel"] = version();
   json["name"] = database.file().filename().string();
-  json["shapes"] = shapes.size();
+  json["shapes"] = shapes->size();
   json["classes"] = Json::array();
   for (const auto& [name, count] : classes) {
     json["classes"].push_back({{"name", name}, {"shapes", count}});
@@ -74,13 +79,14 @@ std::string database_json(const Database& database, const ServeOptions& options)
 
 std::string shapes_json(const Database& database, const ShapeChoice& choice, std::size_t offset,
                         std::size_t limit) {
-  const std::vector<ShapeInfo> shapes = chosen(database, choice);
+  const auto all = database.shapes();
+  const std::vector<const ShapeInfo*> shapes = chosen(*all, choice);
   Json json;
   json["total"] = shapes.size();
   json["shapes"] = Json::array();
   const std::size_t begin = std::min(offset, shapes.size());
   const std::size_t end = begin + std::min(limit, shapes.size() - begin);
-  for (std::size_t i = begin; i < end; ++i) json["shapes"].push_back(info_json(shapes[i]));
+  for (std::size_t i = begin; i < end; ++i) json["shapes"].push_back(info_json(*shapes[i]));
   return text_of(json);
 }
 
@@ -141,27 +147,27 @@ std::string match_json(const QueryShape& query, const StoredShape& other) {
   return text_of(json);
 }
 
-std::optional<std::string> matrix_json(const Database& database, const ShapeChoice& choice,
-                                       int threads, std::size_t& count) {
-  std::vector<ShapeInfo> shapes = chosen(database, choice);
-  count = shapes.size();
-  if (count > kMostMatrixShapes) return std::nullopt;
-  std::sort(shapes.begin(), shapes.end(), [](const ShapeInfo& a, const ShapeInfo& b) {
-    return std::tie(a.class_name, a.name) < std::tie(b.class_name, b.name);
-  });
-  std::vector<Signature> signatures;
-  for (const ShapeInfo& info : shapes) signatures.push_back(database.get(info.name).data.signature);
-  std::vector<std::vector<double>> rows(count);
-  parallel_rows(count, threads, [&](std::size_t row) {
-    for (std::size_t column = 0; column <= row; ++column) {
-      rows[row].push_back(match_score(signatures[row], signatures[column]));
-    }
-  });
-  Json json;
-  json["shapes"] = Json::array();
-  for (const ShapeInfo& info : shapes) json["shapes"].push_back(info_json(info));
-  json["scores"] = rows;
-  return text_of(json);
+std::vector<std::string> chosen_names(const Database& database, const ShapeChoice& choice) {
+  const auto all = database.shapes();
+  std::vector<std::string> names;
+  for (const ShapeInfo* info : chosen(*all, choice)) names.push_back(info->name);
+  return names;
+}
+
+// Written by hand: as JSON values, two million numbers take more memory than as text.
+std::string matrix_json(const SimilarityMatrix& matrix) {
+  Json shapes = Json::array();
+  for (const ShapeInfo& info : matrix.shapes) shapes.push_back(info_json(info));
+  std::string text = text_of({{"shapes", shapes}, {"scores", Json::array()}});
+  text.resize(text.rfind(']'));
+  const std::size_t count = matrix.shapes.size();
+  for (std::size_t row = 0; row < count; ++row) {
+    const auto begin = matrix.scores.begin() + static_cast<std::ptrdiff_t>(row * count);
+    const auto end = begin + static_cast<std::ptrdiff_t>(row) + 1;
+    fmt::format_to(std::back_inserter(text), "{}[{:.6f}]", row > 0 ? "," : "",
+                   fmt::join(begin, end, ","));
+  }
+  return text + "]}\n";
 }
 
 std::string upload_json(const std::string& id, const UploadState& state) {

@@ -6,12 +6,13 @@
 #include <morsel/serve.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "serve/uploads.hpp"
 
 namespace morsel::serve {
 
-inline constexpr std::size_t kMostMatrixShapes = 500;
+inline constexpr std::size_t kMostMatrixShapes = 2000;
 inline constexpr std::size_t kMostListed = 200;
 inline constexpr std::size_t kMostHits = 100;
 
@@ -41,10 +42,10 @@ struct QueryShape {
                                       std::size_t top);
 /// Score, alignment, why, and the other shape's points laid onto the query.
 [[nodiscard]] std::string match_json(const QueryShape& query, const StoredShape& other);
-/// Nothing when there are more shapes than kMostMatrixShapes; `count` is their number.
-[[nodiscard]] std::optional<std::string> matrix_json(const Database& database,
-                                                     const ShapeChoice& choice, int threads,
-                                                     std::size_t& count);
+[[nodiscard]] std::vector<std::string> chosen_names(const Database& database,
+                                                    const ShapeChoice& choice);
+/// Scores rounded to six digits, as morsel matrix writes them.
+[[nodiscard]] std::string matrix_json(const SimilarityMatrix& matrix);
 [[nodiscard]] std::string upload_json(const std::string& id, const UploadState& state);
 
 }  // namespace morsel::serve

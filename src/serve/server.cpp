@@ -18,6 +18,7 @@
 #include "serve/http_server.hpp"
 #include "serve/turns.hpp"
 #include "serve/uploads.hpp"
+#include "serve/watched_work.hpp"
 
 namespace morsel {
 namespace {
@@ -142,11 +143,14 @@ class Server::Service {
   [[nodiscard]] std::shared_ptr<const serve::Uploaded> uploaded(const std::string& id) const;
   [[nodiscard]] QueryShape query(const Request& request) const;
   [[nodiscard]] std::string parts(const Request& request) const;
-  [[nodiscard]] std::string matrix(const Request& request) const;
+  [[nodiscard]] std::vector<std::string> matrix_names(const Request& request) const;
+  [[nodiscard]] std::string matrix(const std::vector<std::string>& names,
+                                   const Progress* progress) const;
   void thumbnail(const Request& request, Response& response);
   void log_in(const Request& request, Response& response);
   void receive(const Request& request, Response& response, const httplib::ContentReader& reader);
-  void report_events(const Request& request, Response& response);
+  void report_upload(const Request& request, Response& response);
+  void report_matrix(const Request& request, Response& response);
   httplib::Server::HandlerResponse admit(const Request& request, Response& response) const;
 
   const Database& database_;
@@ -170,22 +174,30 @@ ServeOptions checked(const ServeOptions& options) {
   return options;
 }
 
-void answer_failure(Response& response, const std::exception_ptr& thrown) {
+Failure failure_of(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const Failure& failure) {
-    fail(response, failure);
+    return failure;
   } catch (const Error& error) {
     const bool theirs = error.code() == ErrorCode::kUsage;
-    fail(response, {theirs ? 400 : 500, error.what()});
+    return {theirs ? 400 : 500, error.what()};
   } catch (const std::bad_alloc&) {
-    fail(response, {503, "There is not enough memory at the moment."});
+    return {503, "There is not enough memory at the moment."};
   } catch (const std::exception& error) {
-    fail(response, {500, fmt::format("internal error, please report it: {}", error.what())});
+    return {500, fmt::format("internal error, please report it: {}", error.what())};
   } catch (...) {
-    fail(response, {500, "internal error, please report it"});
+    return {500, "internal error, please report it"};
   }
 }
+
+bool write_event(httplib::DataSink& sink, const std::string& json) {
+  const std::string event = "data: " + json + "\n";  // the JSON ends with a line break
+  return sink.write(event.data(), event.size());
+}
+
+// Keeps the connection, and finds out whether the other side is still there.
+bool write_heartbeat(httplib::DataSink& sink) { return sink.write(":\n\n", 3); }
 
 }  // namespace
 
@@ -207,7 +219,7 @@ Server::Service::Service(const Database& database, const ServeOptions& options)
       [this](const Request& request, Response& response) { return admit(request, response); });
   http_.set_exception_handler(
       [](const Request&, Response& response, const std::exception_ptr& thrown) {
-        answer_failure(response, thrown);
+        fail(response, failure_of(thrown));
       });
   http_.set_error_handler([](const Request&, Response& response) {
     if (response.body.empty()) fail(response, {response.status, sentence_of(response.status)});
@@ -285,7 +297,11 @@ void Server::Service::add_routes() {
   get_json("/api/match", true, [this](const Request& request) {
     return serve::match_json(query(request), stored(needed(request, "with")));
   });
-  get_json("/api/matrix", true, [this](const Request& request) { return matrix(request); });
+  get_json("/api/matrix", true,
+           [this](const Request& request) { return matrix(matrix_names(request), nullptr); });
+  http_.Get("/api/matrix/events", [this](const Request& request, Response& response) {
+    report_matrix(request, response);
+  });
   http_.Get("/api/thumbnail",
             [this](const Request& request, Response& response) { thumbnail(request, response); });
   http_.Get("/api/upload", [this](const Request& request, Response& response) {
@@ -295,7 +311,7 @@ void Server::Service::add_routes() {
     response.set_content(serve::upload_json(id, *state), kJson);
   });
   http_.Get("/api/upload/events", [this](const Request& request, Response& response) {
-    report_events(request, response);
+    report_upload(request, response);
   });
   http_.Delete("/api/upload", [this](const Request& request, Response& response) {
     if (!uploads_.cancel(needed(request, "id"))) {
@@ -347,13 +363,17 @@ std::string Server::Service::parts(const Request& request) const {
   return uploaded(*id)->parts;
 }
 
-std::string Server::Service::matrix(const Request& request) const {
-  std::size_t count = 0;
-  auto text = serve::matrix_json(database_, choice_of(request), options_.threads, count);
-  if (text) return *std::move(text);
+std::vector<std::string> Server::Service::matrix_names(const Request& request) const {
+  std::vector<std::string> names = serve::chosen_names(database_, choice_of(request));
+  if (names.size() <= serve::kMostMatrixShapes) return names;
   throw Failure{422, fmt::format("These are {} shapes; a table of all pairs is made of at most {}. "
                                  "Choose a class or a word of the names.",
-                                 count, serve::kMostMatrixShapes)};
+                                 names.size(), serve::kMostMatrixShapes)};
+}
+
+std::string Server::Service::matrix(const std::vector<std::string>& names,
+                                    const Progress* progress) const {
+  return serve::matrix_json(database_.matrix_of(names, {}, options_.threads, progress));
 }
 
 void Server::Service::thumbnail(const Request& request, Response& response) {
@@ -404,7 +424,7 @@ void Server::Service::receive(const Request& request, Response& response,
   response.set_content(serve::upload_json(*id, *uploads_.state(*id)), kJson);
 }
 
-void Server::Service::report_events(const Request& request, Response& response) {
+void Server::Service::report_upload(const Request& request, Response& response) {
   const std::string id = needed(request, "id");
   if (!uploads_.state(id)) {
     throw no_such_upload();
@@ -415,11 +435,37 @@ void Server::Service::report_events(const Request& request, Response& response) 
         constexpr std::chrono::seconds kHeartbeat{5};
         const auto state = uploads_.wait(id, *version, kHeartbeat);
         if (!state) return false;
-        if (state->version == *version) return sink.write(":\n\n", 3);
+        if (state->version == *version) return write_heartbeat(sink);
         *version = state->version;
-        const std::string event = "data: " + serve::upload_json(id, *state) + "\n";
-        if (!sink.write(event.data(), event.size())) return false;
+        if (!write_event(sink, serve::upload_json(id, *state))) return false;
         if (!serve::is_open(state->stage)) sink.done();
+        return true;
+      });
+}
+
+// The share that is done, again and again; at the end the table, or why there is none.
+void Server::Service::report_matrix(const Request& request, Response& response) {
+  auto work = std::make_shared<serve::WatchedWork>(
+      [this, names = matrix_names(request)](const Progress& progress) {
+        return turns_.take([&] { return matrix(names, &progress); });
+      });
+  auto told = std::make_shared<int>(-1);
+  response.set_chunked_content_provider(
+      "text/event-stream", [this, work, told](std::size_t, httplib::DataSink& sink) {
+        constexpr std::chrono::seconds kHeartbeat{1};
+        if (http_.stopping()) return false;
+        if (const auto hundredths = work->wait(kHeartbeat)) {
+          if (std::exchange(*told, *hundredths) == *hundredths) return write_heartbeat(sink);
+          return write_event(sink, fmt::format("{{\"fraction\":{:.2f}}}\n", 0.01 * *hundredths));
+        }
+        std::string answer;
+        try {
+          answer = work->take();
+        } catch (...) {
+          answer = serve::error_json(failure_of(std::current_exception()).message);
+        }
+        if (!write_event(sink, answer)) return false;
+        sink.done();
         return true;
       });
 }

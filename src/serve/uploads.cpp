@@ -195,14 +195,14 @@ std::shared_ptr<const Uploaded> segmented(const std::string& name, std::string b
   SegmentOptions segment_options;
   segment_options.threads = options.threads;
   const Segmentation result = segment(cloud.points, segment_options, &progress);
-  Signature signature = make_signature(result, options.threads);
-  if (!(signature.size > 0.0)) throw Error(ErrorCode::kInput, name + ": " + result.message);
   auto uploaded = std::make_shared<Uploaded>();
   uploaded->name = name;
   uploaded->message = result.message;
-  uploaded->data.points = cloud.points.size();
-  uploaded->data.signature = std::move(signature);
-  uploaded->data.sketch = make_sketch(result);
+  try {
+    uploaded->data = make_shape_data(result, segment_options, {});
+  } catch (const Error& error) {
+    throw Error(error.code(), name + ": " + error.what());
+  }
   MergeTree tree = result.tree;
   tree.piece_of_point.resize(cloud.points.size(), kNoBasin);  // no solid: no tree
   uploaded->parts = shape_json(cloud.points, tree, {.name = name});

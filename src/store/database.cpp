@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <memory>
 #include <morsel/database.hpp>
 #include <morsel/error.hpp>
@@ -33,7 +35,7 @@ bool passes(const ShapeInfo& info, const ShapeFilter& filter) {
 ShapeRow existing_shape(SQLite::Database& connection, const std::string& name,
                         const std::filesystem::path& file) {
   std::optional<ShapeRow> row = store::find_shape(connection, name, file);
-  if (!row) fail(file, name, "is not in the database; list shows the names");
+  if (!row) store::throw_missing(name, file);
   return *std::move(row);
 }
 
@@ -57,14 +59,26 @@ std::size_t Database::size() const {
   });
 }
 
-std::vector<ShapeInfo> Database::list(const ShapeFilter& filter) const {
+std::shared_ptr<const std::vector<ShapeInfo>> Database::shapes() const {
   return state_->look([&] {
-    std::vector<ShapeInfo> infos;
+    const std::int64_t token = store::state_token(state_->connection);
+    if (state_->shapes && state_->shapes_token == token) return state_->shapes;
+    auto infos = std::make_shared<std::vector<ShapeInfo>>();
     for (ShapeRow& row : store::all_shapes(state_->connection, state_->file)) {
-      if (passes(row.info, filter)) infos.push_back(std::move(row.info));
+      infos->push_back(std::move(row.info));
     }
-    return infos;
+    state_->shapes = std::move(infos);
+    state_->shapes_token = token;
+    return state_->shapes;
   });
+}
+
+std::vector<ShapeInfo> Database::list(const ShapeFilter& filter) const {
+  const auto all = shapes();
+  std::vector<ShapeInfo> infos;
+  std::copy_if(all->begin(), all->end(), std::back_inserter(infos),
+               [&](const ShapeInfo& info) { return passes(info, filter); });
+  return infos;
 }
 
 std::optional<ShapeInfo> Database::find(const std::string& name) const {

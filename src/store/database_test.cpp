@@ -92,6 +92,22 @@ TEST_F(DatabaseTest, ListFilters) {
   EXPECT_EQ(names({"dog", "y"}), "");
 }
 
+TEST_F(DatabaseTest, ShapesAreReadAgainOnlyAfterAChange) {
+  Database database = create();
+  Database other = create();
+  const ShapeData data = dumbbell_data();
+  database.put({"b", {}, {}, {}}, data);
+  const auto first = database.shapes();
+  EXPECT_EQ(database.shapes(), first);
+  other.put({"a", "dog", {}, {}}, data);
+  const auto second = database.shapes();
+  ASSERT_EQ(second->size(), 2U);
+  EXPECT_EQ(second->front().class_name, "dog");
+  EXPECT_EQ(first->size(), 1U);
+  database.rename("a", "c");
+  EXPECT_EQ(database.shapes()->back().name, "c");
+}
+
 TEST_F(DatabaseTest, RemoveIsAllOrNothing) {
   Database database = create();
   database.put({"a", {}, {}, {}}, dumbbell_data());

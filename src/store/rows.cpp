@@ -153,6 +153,11 @@ ShapeData read_data(SQLite::Statement& row, const fs::path& file, int first_colu
   return data;
 }
 
+void throw_missing(const std::string& name, const fs::path& file) {
+  throw Error(ErrorCode::kInput, fmt::format("{}: {} is not in the database; list shows the names",
+                                             file.string(), io::in_quotes(name)));
+}
+
 std::optional<ShapeRow> find_shape(SQLite::Database& database, const std::string& name,
                                    const fs::path& file) {
   SQLite::Statement statement(database,

@@ -34,6 +34,9 @@ inline constexpr const char* kDataColumns =
 [[nodiscard]] Signature read_signature(const SQLite::Column& column, const std::string& name,
                                        const std::filesystem::path& file);
 
+/// Says that there is no shape of that name.
+[[noreturn]] void throw_missing(const std::string& name, const std::filesystem::path& file);
+
 [[nodiscard]] std::optional<ShapeRow> find_shape(SQLite::Database& database,
                                                  const std::string& name,
                                                  const std::filesystem::path& file);

@@ -209,11 +209,10 @@ void Database::State::drop_block() {
   });
 }
 
-SimilarityMatrix Database::matrix(const MatchOptions& options, int threads,
-                                  const Progress* progress) const {
-  options.check();
-  NamedSignatures all =
-      state_->look([&] { return read_signatures(state_->connection, state_->file); });
+namespace {
+
+SimilarityMatrix score_pairs(NamedSignatures all, const MatchOptions& options, int threads,
+                             const Progress* progress) {
   const std::size_t count = all.infos.size();
   std::vector<std::size_t> order(count);
   for (std::size_t i = 0; i < count; ++i) order[i] = i;
@@ -240,6 +239,36 @@ SimilarityMatrix Database::matrix(const MatchOptions& options, int threads,
     if (progress != nullptr) progress->report("compare", static_cast<double>(pairs) / most);
   });
   return matrix;
+}
+
+}  // namespace
+
+SimilarityMatrix Database::matrix(const MatchOptions& options, int threads,
+                                  const Progress* progress) const {
+  options.check();
+  return score_pairs(
+      state_->look([&] { return read_signatures(state_->connection, state_->file); }), options,
+      threads, progress);
+}
+
+SimilarityMatrix Database::matrix_of(std::span<const std::string> names,
+                                     const MatchOptions& options, int threads,
+                                     const Progress* progress) const {
+  options.check();
+  NamedSignatures chosen = state_->look([&] {
+    NamedSignatures found;
+    SQLite::Statement statement = select_signatures(state_->connection, "WHERE name = ?");
+    for (const std::string& name : names) {
+      statement.reset();
+      statement.bind(1, name);
+      if (!statement.executeStep()) store::throw_missing(name, state_->file);
+      ShapeInfo info = store::read_shape(statement, state_->file).info;
+      found.signatures.push_back(signature_of(statement, info, state_->file));
+      found.infos.push_back(std::move(info));
+    }
+    return found;
+  });
+  return score_pairs(std::move(chosen), options, threads, progress);
 }
 
 std::vector<std::string> Database::State::check_block() {

@@ -140,6 +140,23 @@ TEST_F(SearchTest, MatrixIsSymmetricWithOnesAndOrderedByClass) {
   }
 }
 
+TEST_F(SearchTest, MatrixOfSomeIsThatOfAllWithoutTheRest) {
+  Database database = create();
+  fill(database, 5);
+  const SimilarityMatrix all = database.matrix();
+  const std::vector<std::string> names{all.shapes[3].name, all.shapes[1].name};
+  const SimilarityMatrix two = database.matrix_of(names);
+  ASSERT_EQ(two.shapes.size(), 2U);
+  EXPECT_EQ(two.shapes[0], all.shapes[1]);
+  EXPECT_EQ(two.shapes[1], all.shapes[3]);
+  const double score = all.scores[all.shapes.size() + 3];
+  EXPECT_EQ(two.scores, (std::vector<double>{1.0, score, score, 1.0}));
+  const std::vector<std::string> missing{names[0], "missing"};
+  const std::string message =
+      message_of(ErrorCode::kInput, [&] { (void)database.matrix_of(missing); });
+  EXPECT_NE(message.find("'missing' is not in the database"), std::string::npos) << message;
+}
+
 TEST_F(SearchTest, MatrixCanBeCancelled) {
   Database database = create();
   fill(database, 5);

@@ -25,6 +25,8 @@ struct Database::State {
   std::mutex mutex = {};  // guards all below `file`: a connection is not for several threads
   std::shared_ptr<const SearchBlock> block = {};
   std::int64_t block_token = 0;  // of the state that `block` was made from
+  std::shared_ptr<const std::vector<ShapeInfo>> shapes = {};
+  std::int64_t shapes_token = 0;  // of the state that `shapes` was read from
 
   /// Calls work() alone and with SQLite's failures as morsel::Error.
   template <class Work>

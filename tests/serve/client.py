@@ -61,12 +61,16 @@ class Server:
         return self.ask("POST", "/api/uploads?" + urllib.parse.urlencode({"name": name}), content,
                         headers)
 
-    def follow(self, upload):
-        """All states of an upload, as the events tell them."""
-        status, headers, body = self.ask("GET", "/api/upload/events", id=upload)
+    def events(self, path, **parameters):
+        """The JSON of all events until the last."""
+        status, headers, body = self.ask("GET", path, **parameters)
         assert (status, headers["Content-Type"]) == (200, "text/event-stream")
         events = [event for event in body.decode().split("\n\n") if event.startswith("data: ")]
         return [json.loads(event[len("data: "):]) for event in events]
+
+    def follow(self, upload):
+        """All states of an upload."""
+        return self.events("/api/upload/events", id=upload)
 
     def hand_in(self, name, content):
         """Sends a file and waits; returns its last state."""

@@ -101,6 +101,7 @@ class Answers(ServeTest):
             "/api/match": [{**stored, "with": "balls/round.xyz"}, {**upload, "with": "bells/b.xyz"},
                            stored, {**stored, "with": "none"}],
             "/api/matrix": [{}, {"class": "balls"}, {"text": "nothing has this"}],
+            "/api/matrix/events": [{}, {"class": "balls", "text": "none"}, {"text": "x" * 2049}],
             "/api/upload": [{"id": state["id"]}, {"id": "0"}, {}],
             "/api/upload/events": [{"id": state["id"]}, {"id": "0"}, {}],
         }
@@ -149,6 +150,12 @@ class Answers(ServeTest):
         self.assertEqual([shape["name"] for shape in matrix["shapes"]], rows[0][1:])
         for row, said in zip(matrix["scores"], rows[1:]):
             self.assertEqual([f"{score:.6f}" for score in row], said[1:len(row) + 1])
+        *shares, last = self.server.events("/api/matrix/events")
+        self.assertEqual(last, matrix)
+        fractions = [share["fraction"] for share in shares]
+        self.assertEqual(fractions, sorted(fractions))
+        part = self.server.events("/api/matrix/events", text="BELL")[-1]
+        self.assertEqual(part, self.server.get("/api/matrix", **{"class": "bells"}))
 
     def test_shapes_are_found_by_text_and_class(self):
         def names(**parameters):

@@ -61,13 +61,15 @@ export class ApiError extends Error {
   }
 }
 
+const kSilent = 'The server does not answer. Is morsel serve still running?';
+
 async function call(path: string, init?: RequestInit): Promise<Response> {
   let response: Response;
   try {
     response = await fetch(path, init);
   } catch (error) {
     if (init?.signal?.aborted) throw error;
-    throw new ApiError(0, 'The server does not answer. Is morsel serve still running?');
+    throw new ApiError(0, kSilent);
   }
   if (response.ok) return response;
   const said = await response.json().catch(() => null);
@@ -102,7 +104,38 @@ export const getShapes = (
 ): Promise<{ total: number; shapes: ShapeInfo[] }> =>
   getJson('shapes', { ...chosen(choice), offset, limit });
 
-export const getMatrix = (choice: Choice): Promise<Matrix> => getJson('matrix', chosen(choice));
+/** Calls `report` with the share that is done until the table is there. */
+export async function getMatrix(
+  choice: Choice,
+  report: (fraction: number) => void,
+  signal: AbortSignal,
+): Promise<Matrix> {
+  const response = await call(address('matrix/events', chosen(choice)), { signal });
+  for await (const said of eventsOf(response.body!)) {
+    if ('error' in said) throw new ApiError(500, said.error);
+    if ('scores' in said) return said;
+    report(said.fraction);
+  }
+  throw new ApiError(0, kSilent);
+}
+
+type MatrixEvent = { fraction: number } | { error: string } | Matrix;
+
+/** The events of a stream, of one line each. */
+async function* eventsOf(stream: ReadableStream<Uint8Array>): AsyncGenerator<MatrixEvent> {
+  const reader = stream.getReader();
+  const decoder = new TextDecoder();
+  let begun: string[] = []; // of a line; it may come in thousands of pieces
+  for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+    const [end, ...lines] = decoder.decode(piece.value, { stream: true }).split('\n');
+    begun.push(end);
+    for (const next of lines) {
+      const line = begun.join('');
+      begun = [next];
+      if (line.startsWith('data: ')) yield JSON.parse(line.slice('data: '.length));
+    }
+  }
+}
 
 export const search = (query: Query, top: number): Promise<{ query: string; hits: Hit[] }> =>
   getJson('search', { ...query, top });
@@ -159,7 +192,7 @@ export async function follow(
       // It tries again by itself, every few seconds.
       if (events.readyState !== EventSource.CLOSED && ++failures < 4) return;
       events.close();
-      fail(new ApiError(0, 'The server does not answer. Is morsel serve still running?'));
+      fail(new ApiError(0, kSilent));
     };
   });
 }

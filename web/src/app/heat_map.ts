@@ -1,4 +1,5 @@
 // A table of scores as coloured squares on a canvas.
+import { make } from '../ui/dom';
 import { scoreOf } from './order';
 import type { Matrix } from './api';
 import { splitName } from './words';
@@ -19,12 +20,34 @@ const kRamp = [
   [253, 231, 37],
 ];
 
-/** Of a score, 0 dark and 1 bright, as CSS. */
-export function heatColor(score: number): string {
+// Of a score, 0 dark and 1 bright; 0 … 255 a channel.
+function heat(score: number): number[] {
   const at = Math.max(0, Math.min(1, score)) * (kRamp.length - 1);
   const i = Math.min(kRamp.length - 2, Math.floor(at));
-  const mixed = kRamp[i].map((from, k) => Math.round(from + (at - i) * (kRamp[i + 1][k] - from)));
-  return `rgb(${mixed.join(' ')})`;
+  return kRamp[i].map((from, k) => Math.round(from + (at - i) * (kRamp[i + 1][k] - from)));
+}
+
+/** The same as CSS. */
+export const heatColor = (score: number) => `rgb(${heat(score).join(' ')})`;
+
+/** The table with one pixel a pair. */
+export function paint(matrix: Matrix, order: readonly number[]): HTMLCanvasElement {
+  const count = order.length;
+  const canvas = make('canvas', { width: count, height: count });
+  if (count === 0) return canvas;
+  const image = new ImageData(count, count);
+  const colors = Uint8ClampedArray.from(
+    Array.from({ length: 256 }, (_, i) => [...heat(i / 255), 255]).flat(),
+  );
+  const [of, to] = [colors, image.data].map(({ buffer }) => new Uint32Array(buffer));
+  order.forEach((i, row) =>
+    order.forEach((j, column) => {
+      const score = Math.max(0, Math.min(1, scoreOf(matrix, i, j)));
+      to[row * count + column] = of[Math.round(255 * score)];
+    }),
+  );
+  canvas.getContext('2d')!.putImageData(image, 0, 0);
+  return canvas;
 }
 
 const kMostSide = 760;
@@ -52,24 +75,28 @@ export function layOut(
   return { cell, left, top: 0 };
 }
 
+export interface HeatStyle {
+  /** As paint() gives them. */
+  squares: HTMLCanvasElement;
+  dark: boolean;
+  marked: readonly [row: number, column: number] | null;
+}
+
 export function drawHeatMap(
   canvas: HTMLCanvasElement,
   matrix: Matrix,
   order: readonly number[],
   { cell, left }: Layout,
-  { dark, marked }: { dark: boolean; marked: readonly [number, number] | null },
+  { squares, dark, marked }: HeatStyle,
 ): void {
   const context = canvas.getContext('2d')!;
   const ratio = Math.min(2, devicePixelRatio);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, canvas.width, canvas.height);
-  order.forEach((i, row) =>
-    order.forEach((j, column) => {
-      context.fillStyle = heatColor(scoreOf(matrix, i, j));
-      // Half a pixel more: no gaps between squares.
-      context.fillRect(left + column * cell, row * cell, cell + 0.5, cell + 0.5);
-    }),
-  );
+  const side = order.length * cell;
+  context.imageSmoothingEnabled = cell * ratio < 1; // several pairs a pixel: their mean
+  context.imageSmoothingQuality = 'high';
+  context.drawImage(squares, left, 0, side, side);
   const text = dark ? '#eceef2' : '#16181d';
   context.fillStyle = text;
   context.textBaseline = 'middle';
@@ -89,7 +116,7 @@ export function drawHeatMap(
   }
 }
 
-// The name of each shape, or of each run of a class where rows are too low for that.
+// Class and name of each shape, or of each run of a class where rows are too low for that.
 function writeNames(
   context: CanvasRenderingContext2D,
   matrix: Matrix,
@@ -100,7 +127,10 @@ function writeNames(
   const write = (text: string, y: number) =>
     context.fillText(fitted(context, text, left - 8), left - 6, y);
   if (cell >= kLeastNamed) {
-    order.forEach((i, row) => write(splitName(matrix.shapes[i].name)[1], (row + 0.5) * cell));
+    order.forEach((i, row) => {
+      const { name, class: of } = matrix.shapes[i];
+      write(`${of ? `${of} · ` : ''}${splitName(name)[1]}`, (row + 0.5) * cell);
+    });
     return;
   }
   for (let row = 0; row < order.length;) {

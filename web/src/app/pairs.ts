@@ -1,9 +1,9 @@
 // All pairs as a heat map: to see which shapes belong together, and to pick a pair.
-import { make, setText } from '../ui/dom';
+import { make } from '../ui/dom';
 import type { Theme } from '../ui/theme';
 import { getDatabase, getMatrix, type Choice, type Matrix } from './api';
 import { classSelect, picture } from './gallery';
-import { drawHeatMap, heatColor, layOut, type Layout } from './heat_map';
+import { drawHeatMap, heatColor, layOut, paint, type Layout } from './heat_map';
 import { compareLink } from './links';
 import { orderBy, scoreOf, type Order } from './order';
 import { filterBox, heading, nameOf, notice, scoreBar, select, waiting } from './parts_of_page';
@@ -27,22 +27,25 @@ export async function showPairs(
   let order: Order = 'class';
   let matrix: Matrix | null = null;
   let map: HeatMap | null = null;
-  let turn = 0;
+  let loading = new AbortController();
   const show = () => {
     if (matrix) map = new HeatMap(place, matrix, orderBy(matrix, order), theme);
   };
   const load = async () => {
-    const mine = ++turn;
-    place.replaceChildren(waiting('Comparing all pairs …'));
+    loading.abort();
+    loading = new AbortController();
+    const mine = loading.signal;
+    matrix = map = null;
+    const bar = make('progress', { max: 1, value: 0, 'aria-label': 'Progress' });
+    place.replaceChildren(waiting('Comparing all pairs …'), bar);
     try {
-      const answer = await getMatrix(choice);
-      if (mine !== turn || signal.aborted) return;
-      matrix = answer;
+      matrix = await getMatrix(choice, (fraction) => (bar.value = fraction), mine);
       show();
     } catch (error) {
-      if (mine === turn && !signal.aborted) place.replaceChildren(notice((error as Error).message));
+      if (!mine.aborted) place.replaceChildren(notice((error as Error).message));
     }
   };
+  signal.addEventListener('abort', () => loading.abort());
   host.append(
     heading('All pairs'),
     make(
@@ -90,6 +93,7 @@ function legend(): HTMLElement {
 class HeatMap {
   private readonly canvas = make('canvas', { class: 'heat', tabindex: 0, role: 'application' });
   private readonly about = make('div', { class: 'pair-card', 'aria-live': 'polite' });
+  private readonly squares: HTMLCanvasElement;
   private layout: Layout | null = null;
   private row = 0;
   private column = 0;
@@ -102,6 +106,7 @@ class HeatMap {
     private readonly theme: Theme,
   ) {
     const count = order.length;
+    this.squares = paint(matrix, order);
     if (count === 0) {
       place.replaceChildren(notice('No shape has this in its name, class or tags.'));
       return;
@@ -114,7 +119,8 @@ class HeatMap {
     this.canvas.addEventListener('pointermove', (event) => this.point(event, false));
     this.canvas.addEventListener('click', (event) => this.point(event, true));
     this.canvas.addEventListener('keydown', (event) => this.key(event));
-    setText(this.about, 'Point at a square to see which two shapes it stands for.');
+    const hint = 'Point at a square to see which two shapes it stands for.';
+    this.about.replaceChildren(make('p', { class: 'note' }, hint));
     this.draw();
   }
 
@@ -123,6 +129,7 @@ class HeatMap {
     this.layout = layOut(this.canvas, this.matrix, this.order);
     const marked = this.chosen || document.activeElement === this.canvas;
     drawHeatMap(this.canvas, this.matrix, this.order, this.layout, {
+      squares: this.squares,
       dark: this.theme.dark,
       marked: marked ? [this.row, this.column] : null,
     });
