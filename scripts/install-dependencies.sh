@@ -18,7 +18,8 @@ packages=(
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then packages+=(nodejs npm); fi
 lint=(clang-format clang-tidy-16 shellcheck) # 14, the default, cannot parse <ranges>
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
-test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest python3-jsonschema mypy)
+test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest python3-jsonschema mypy
+  python3-matplotlib python3-plotly)
 case "${1:-}" in
   "") ;;
   --lint) packages+=("${lint[@]}") ;;

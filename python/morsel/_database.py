@@ -91,8 +91,8 @@ class Database:
 
     def __init__(self, path: Path, mode: str = "c") -> None:
         text = os.fspath(path)
-        if text.startswith(("http://", "https://")):
-            raise ValueError(f"{text}: is an address; give the path of a database file")
+        if "://" in text:
+            raise ValueError(f"{text}: is an address; only files so far, give the path of one")
         if mode not in ("r", "w", "c"):
             raise ValueError(f"mode is {mode!r}; it must be 'r', 'w' or 'c'")
         if mode != "c":

@@ -104,8 +104,9 @@ def test_open():
         morsel.Database("none/shapes.db")
     with pytest.raises(ValueError, match="mode is 'x'"):
         morsel.Database("shapes.db", mode="x")
-    with pytest.raises(ValueError, match="is an address"):
-        morsel.Database("http://localhost:8000")
+    for address in ("http://localhost:8000", "postgresql://localhost/shapes"):
+        with pytest.raises(ValueError, match="is an address; only files so far"):
+            morsel.Database(address)
     with open("text.db", "w", encoding="ascii") as file:
         file.write("text, and more than an SQLite header has bytes. " * 10)
     with pytest.raises(morsel.Error, match="text.db: is not a database of morsel"):
