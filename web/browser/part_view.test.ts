@@ -47,7 +47,8 @@ afterEach(() => {
   complaints = [];
 });
 
-async function open(options: BrowserContextOptions = {}): Promise<Page> {
+/** `first` runs in the page before its own script. */
+async function open(options: BrowserContextOptions = {}, first = () => {}): Promise<Page> {
   const context = await browser.newContext({
     viewport: { width: 960, height: 640 },
     ...options,
@@ -59,6 +60,7 @@ async function open(options: BrowserContextOptions = {}): Promise<Page> {
     (url) => /^(file|blob|data):/.test(url),
     (text) => complaints.push(text),
   );
+  await page.addInitScript(first);
   await page.goto(address);
   await drawn(page);
   return page;
@@ -249,6 +251,73 @@ describe('what stands for the parts', () => {
     const lines = await pictureOf(page);
     expect(lines.green).toBeGreaterThan(0.0002);
     expect(lines.green).toBeLessThan(0.05);
+    await page.context().close();
+  });
+});
+
+describe('frames', () => {
+  interface Work {
+    points: number; // draws of points, one a frame
+    rest: number; // all other draws
+    bytes: number; // handed to the graphics card
+  }
+
+  // Counts what the page asks of WebGL, from its first line on.
+  const count = () => {
+    const work: Work = { points: 0, rest: 0, bytes: 0 };
+    const gl = WebGL2RenderingContext.prototype;
+    const tell = (names: string[], told: (args: unknown[]) => void) => {
+      for (const name of names) {
+        const methods = gl as unknown as Record<string, (...args: unknown[]) => unknown>;
+        const method = methods[name];
+        methods[name] = function (this: unknown, ...args: unknown[]) {
+          told(args);
+          return method.apply(this, args);
+        };
+      }
+    };
+    tell(['drawArrays'], () => (work.points += 1));
+    tell(['drawElements', 'drawArraysInstanced', 'drawElementsInstanced'], () => (work.rest += 1));
+    tell(['bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D'], (args) => {
+      work.bytes += args.find(ArrayBuffer.isView)?.byteLength ?? 0;
+    });
+    Object.assign(window, { work });
+  };
+  const workOf = (page: Page) =>
+    page.evaluate(() => ({ ...(window as unknown as { work: Work }).work }));
+  /** What is asked for during the next 20 frames of the browser. */
+  const workWhile20Frames = async (page: Page): Promise<Work> => {
+    const before = await workOf(page);
+    for (let i = 0; i < 10; ++i) await drawn(page);
+    const after = await workOf(page);
+    return {
+      points: after.points - before.points,
+      rest: after.rest - before.rest,
+      bytes: after.bytes - before.bytes,
+    };
+  };
+
+  test('are drawn only when something changes, and carry nothing but what changed', async () => {
+    const page = await open({}, count);
+    const still = { points: 0, rest: 0, bytes: 0 };
+    await expect.poll(() => workWhile20Frames(page)).toEqual(still);
+    const begin = await workOf(page);
+    expect(begin.bytes).toBeGreaterThan(16 * 4000); // the points themselves
+
+    await canvasOf(page).focus();
+    await page.keyboard.press('ArrowRight');
+    await expect.poll(async () => (await workOf(page)).points).toBeGreaterThan(begin.points);
+    await expect.poll(() => workWhile20Frames(page)).toEqual(still);
+    const turned = await workOf(page);
+    // A frame is one draw of all points and one of the last pass.
+    expect(turned.rest - begin.rest).toBe(turned.points - begin.points);
+    expect(turned.bytes).toBe(begin.bytes);
+
+    await page.keyboard.press('[');
+    await expect.poll(async () => (await workOf(page)).points).toBeGreaterThan(turned.points);
+    await expect.poll(() => workWhile20Frames(page)).toEqual(still);
+    // Another cut is a small table, whatever the number of points.
+    expect((await workOf(page)).bytes - turned.bytes).toBeLessThan(64 * 1024);
     await page.context().close();
   });
 });

@@ -34,14 +34,18 @@ export function dumbbell(count: number): string {
   return lines.join('\n');
 }
 
-// Waits until what was asked for is on the screen.
-export const drawn = (page: Page) =>
-  page.evaluate(
-    () =>
-      new Promise<void>((done) =>
-        requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 100))),
-      ),
-  );
+/** Waits until what was asked for is on the screen, however slow the machine: not coarsely either. */
+export async function drawn(page: Page): Promise<void> {
+  const isDrawn = () =>
+    page.evaluate(
+      () =>
+        new Promise<boolean>((tell) => {
+          const look = () => tell(document.querySelector('[data-coarse]') === null);
+          requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(look, 100)));
+        }),
+    );
+  while (!(await isDrawn())) continue;
+}
 
 let counter: Page; // counts colours
 

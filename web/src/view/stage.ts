@@ -73,8 +73,9 @@ export class Stage {
   private centers: Vector3[] = [];
   private fitted = 1; // extent that the camera was fitted to
   private frame = 0;
-  private lastFrame = 0;
+  private ready = 0;
   private settle = 0;
+  private warm = false;
   private coarse = false;
   private every = 1; // one of so many points is drawn while it moves
   /** Told when fewer points are drawn than there are: one of `every`. */
@@ -105,6 +106,7 @@ export class Stage {
 
   dispose(): void {
     cancelAnimationFrame(this.frame);
+    cancelAnimationFrame(this.ready);
     clearTimeout(this.settle);
     this.controls.dispose();
     for (const part of [this.splats, this.balls, this.rods, this.finish]) part.dispose();
@@ -255,43 +257,43 @@ export class Stage {
   // ---- drawing ----------------------------------------------------------------------------------
 
   private requestFrame(): void {
+    clearTimeout(this.settle);
     if (this.frame !== 0) return;
-    const asked = performance.now();
-    this.frame = requestAnimationFrame((time) => {
+    this.frame = requestAnimationFrame((begin) => {
       this.frame = 0;
-      const gap = time - this.lastFrame;
-      this.lastFrame = time;
-      // A long pause is no slow frame, but to be kept waiting for one is.
-      const took = Math.max(gap < 250 ? gap : 0, performance.now() - asked);
-      this.coarse = took > kSlow || (this.coarse && took > 0.6 * kSlow);
-      this.thin(took);
-      this.render(this.coarse, this.coarse ? this.every : 1);
-      clearTimeout(this.settle);
-      if (this.coarse) this.settle = window.setTimeout(() => this.rest(), 300);
+      const { coarse } = this;
+      this.onThin(this.every);
+      this.render(coarse, this.every);
+      // The browser calls again when it is ready for the next frame, asked for or not.
+      this.ready = requestAnimationFrame((end) => {
+        if (this.warm) this.judge(end - begin);
+        this.warm = true; // the first one had the shaders to compile
+        if (coarse && this.frame === 0) this.settle = window.setTimeout(() => this.rest(), 300);
+      });
     });
   }
 
-  // Fewer points the slower the frames, all again when there is time.
-  private thin(took: number): void {
+  // A slow frame makes those after it coarser until the movement ends.
+  private judge(took: number): void {
     const { count } = this.model.shape.points;
-    if (took > kVerySlow && count / this.every > kFewPoints && this.every < kMostEvery) {
-      this.every *= 2;
-    } else if (took < 0.5 * kSlow && this.every > 1) {
-      this.every /= 2;
-    }
-    this.onThin(this.coarse ? this.every : 1);
+    if (took > kSlow) this.coarse = true;
+    const fewer = count / this.every > kFewPoints && this.every < kMostEvery;
+    if (took > kVerySlow && fewer) this.every *= 2;
   }
 
-  // Nothing moves: everything is drawn, however long it takes.
+  // Nothing moves: everything is drawn, however long it takes. The next movement begins finer.
   private rest(): void {
     this.render(false);
     this.onThin(1);
+    if (this.every > 1) this.every /= 2;
+    else this.coarse = false;
   }
 
   /** Draws now. `coarse`: one sample a pixel; one of `every` points. */
   render(coarse = false, every = 1): void {
     const { look } = this;
     if (!look || this.canvas.width === 0) return;
+    this.canvas.toggleAttribute('data-coarse', coarse); // more is to come
     const ratio = this.renderer.getPixelRatio();
     const factor = coarse || this.software || ratio >= 1.5 ? 1 : 2;
     const distance = this.camera.position.distanceTo(this.controls.target);
