@@ -74,6 +74,7 @@ export class Solids {
   set(solids: readonly Solid[]): void {
     const tint = this.object.geometry.getAttribute('tint') as InstancedBufferAttribute;
     this.object.count = solids.length;
+    if (solids.length === 0) return; // nothing to send
     solids.forEach((solid, i) => {
       this.object.setMatrixAt(i, solid.matrix);
       tint.setXYZW(i, solid.color[0], solid.color[1], solid.color[2], solid.id / 255);
