@@ -28,7 +28,7 @@ constexpr double kSmallestOpening = 2.0;  // radius over spacing; below, chance 
 // Smaller areas than these are chance bridges across creases: of the widest opening's where a leak
 // says that there is one, else of the inside's surface.
 constexpr double kNotableBesideWidest = 0.06;
-constexpr double kNotableShare = 0.01;
+constexpr double kNotableShare = 0.03;
 constexpr double kWideFacet = 6.0;  // longest edge over spacing
 // λ² is this share of the area that each of uniformly random points on a plane stands for.
 constexpr double kAreaPerSquaredLambda = 1.88;

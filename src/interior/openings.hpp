@@ -25,7 +25,7 @@ struct Openings {
 };
 
 /// Where facets between inner cells and others are too wide to be surface. Unless the outside
-/// `leaked` in before, an opening must take a hundredth of the inside's surface. Cost: O(v + c).
+/// `leaked` in before, an opening must take 3% of the inside's surface. Cost: O(v + c).
 [[nodiscard]] Openings find_openings(const DelaunayComplex& complex,
                                      const std::vector<double>& lambda,
                                      const std::vector<CellSide>& side, bool leaked, int threads);

@@ -106,7 +106,7 @@ std::string describe_not_solid(const Segmentation& s) {
   if (s.interior.bare_share > kBareSheet) {
     return fmt::format(
         "{:.0f}% of the surface has no inside behind it: the points bound no solid. Scan the "
-        "missing side.",
+        "missing side, or give more points where walls are thin.",
         100.0 * s.interior.bare_share);
   }
   if (s.interior.open_share > kOpenSheet) {

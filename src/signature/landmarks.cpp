@@ -79,7 +79,7 @@ class FarthestFirst {
   std::vector<std::uint32_t> farthest_;  // point of each landmark
 };
 
-// Mean and normal of the plane that fits the points best.
+// Mean and normal of the plane that fits the points best; no normal where they lie on a line.
 void fit_plane(std::span<const Vec3> points, const std::vector<std::uint32_t>& members, Vec3& mean,
                Vec3& normal) {
   const double share = 1.0 / static_cast<double>(members.size());
@@ -91,6 +91,8 @@ void fit_plane(std::span<const Vec3> points, const std::vector<std::uint32_t>& m
     spread += v * v.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  constexpr double kFlat = 1e-9;
+  if (!(solver.eigenvalues()[1] > kFlat * solver.eigenvalues()[2])) return;
   const Eigen::Vector3d axis = solver.eigenvectors().col(0);
   normal = {axis.x(), axis.y(), axis.z()};
 }

@@ -107,6 +107,22 @@ TEST(SignatureTest, PoseScaleAndMirroringChangeNothing) {
   expect_same_tables(signature_of(shapes::changed(points, mirror)), base);
 }
 
+// Most landmarks stand for a few points then.
+TEST(SignatureTest, PoseChangesNothingWithFewPoints) {
+  const Points points = shapes::noisy(shapes::dumbbell(700), 0.01);
+  const Points exchanged = shapes::changed(points, [](const Vec3& p) {
+    return Vec3{p.z + 3.0, p.x - 2.0, p.y + 1.0};
+  });
+  SegmentOptions options;
+  options.denoise.rounds = 0;
+  const auto signature = [&](const Points& cloud) {
+    return make_signature(segment(cloud, options));
+  };
+  const Signature base = signature(points);
+  expect_same_tables(signature(exchanged), base);
+  expect_same_tables(signature(shapes::turned(points, shapes::rotation())), base);
+}
+
 TEST(SignatureTest, OrderAndThreadsChangeNoBit) {
   const Points points = shape();
   const Signature base = signature_of(points);

@@ -24,6 +24,7 @@ constexpr std::size_t kDegree = 4;
 using Coefficients = Harmonics<kDegree>::Values;
 
 constexpr std::size_t kLandmarks = 320;
+constexpr std::size_t kPointsPerLandmark = 6;  // at least, for a plane through them
 constexpr std::size_t kGeodesicSources = 64;
 
 // Square roots bring out small values and make the distance of histograms one of probabilities.
@@ -355,7 +356,9 @@ std::vector<std::uint8_t> make_tables(const DelaunayComplex& complex, const Basi
   };
   invoke([&] { solid = find_solid(complex, basins); },
          [&] {
-           surface.landmarks = find_landmarks(complex.vertices, surface.frame.centroid, kLandmarks);
+           surface.landmarks =
+               find_landmarks(complex.vertices, surface.frame.centroid,
+                              std::min(kLandmarks, complex.vertices.size() / kPointsPerLandmark));
          });
   const bool inside = solid.volume > 0.0;
   invoke(
