@@ -5,6 +5,8 @@
 #include <fstream>
 #include <morsel/error.hpp>
 
+#include "base/test_folder.hpp"
+
 namespace morsel::bench {
 namespace {
 
@@ -12,20 +14,13 @@ namespace fs = std::filesystem;
 
 class CollectionTest : public ::testing::Test {
  protected:
-  CollectionTest() : folder_(fs::path(::testing::TempDir()) / "morsel_collection") {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~CollectionTest() override { fs::remove_all(folder_); }
-  CollectionTest(const CollectionTest&) = delete;
-  CollectionTest& operator=(const CollectionTest&) = delete;
-
   void write(const std::string& name, const std::string& text = "") const {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << text;
   }
 
-  fs::path folder_;
+  TestFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(CollectionTest, ReadsAPrincetonClassification) {

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <morsel/error.hpp>
 
+#include "base/test_folder.hpp"
+
 namespace morsel::bench {
 namespace {
 
@@ -12,13 +14,7 @@ namespace fs = std::filesystem;
 
 class DatasetTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("morsel_bench_") + test->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "off");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  DatasetTest() { fs::create_directories(folder_ / "off"); }
 
   fs::path write(const fs::path& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
@@ -26,7 +22,8 @@ class DatasetTest : public testing::Test {
     return folder_ / name;
   }
 
-  fs::path folder_;
+  TestFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST(IdFilter, TakesAllOrAResidue) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/test_folder.hpp"
+
 namespace morsel::bench {
 namespace {
 
@@ -21,10 +23,10 @@ TEST(Summary, HasMeanAndMedian) {
 }
 
 TEST(Summary, WritesJsonOrSaysWhyNot) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "morsel_bench_summary.json";
+  const TestFolder folder;
+  const auto path = folder.path() / "summary.json";
   write_json(path, {{"a", 1}});
   EXPECT_GT(std::filesystem::file_size(path), 0U);
-  std::filesystem::remove(path);
   EXPECT_THROW(write_json("/nowhere/at/all.json", {}), Error);
 }
 

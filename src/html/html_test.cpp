@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/base64.hpp"
+#include "base/test_folder.hpp"
 #include "base/test_shapes.hpp"
 #include "html/shape_json.hpp"
 #include "html/test_tree.hpp"
@@ -161,11 +162,11 @@ TEST(HtmlPage, HoldsTheViewerAndTheShape) {
   EXPECT_NE(page.find("\"name\":\"a\\u003cb\""), std::string::npos);
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
   EXPECT_EQ(page, html_page(shape.points, shape.tree, {.name = "a<b"}));
-  const auto path = std::filesystem::temp_directory_path() / "morsel_html_test.html";
+  const TestFolder folder;
+  const auto path = folder.path() / "page.html";
   write_html(path, shape.points, shape.tree, {.name = "a<b"});
   std::ifstream file(path, std::ios::binary);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), page);
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <morsel/morsel.hpp>
 
 #include "base/random.hpp"
+#include "base/test_folder.hpp"
 #include "match/block.hpp"
 #include "signature/tables.hpp"
 
@@ -72,8 +73,8 @@ std::vector<Hit> exhaustive(const SearchBlock& block, const Signature& query, st
 
 class SearchTest : public ::testing::TestWithParam<Set> {
  protected:
-  const fs::path path_ = fs::path(::testing::TempDir()) /
-                         ("morsel_search_" + std::to_string(static_cast<int>(GetParam())));
+  const TestFolder folder_;
+  const fs::path path_ = folder_.path() / "block";
 };
 
 // Names so that ties are not in the order of the rows.
@@ -147,7 +148,8 @@ class DamagedBlockTest : public ::testing::Test {
 
   Random random_{1};
   Shapes shapes_;
-  const fs::path path_ = fs::path(::testing::TempDir()) / "morsel_damaged_block";
+  const TestFolder folder_;
+  const fs::path path_ = folder_.path() / "block";
   std::string good_;
 };
 
@@ -190,28 +192,29 @@ TEST_F(DamagedBlockTest, NeverGivesAnotherAnswer) {
 }
 
 TEST(SearchBlockTest, BoundsSkipAlmostAll) {
-  const fs::path path = fs::path(::testing::TempDir()) / "morsel_skipping_block";
+  const TestFolder folder;
+  const fs::path path = folder.path() / "block";
   Random random(5);
   const Shapes shapes(Set::kRandom, 3000, random);
   write_search_block(path, shapes.names, shapes.signatures);
   std::size_t looked_at = 0;
   (void)SearchBlock::open(path).search(shapes.signatures[1234], 1, {}, &looked_at);
   EXPECT_LT(looked_at, 10U);
-  fs::remove(path);
 }
 
 TEST(SearchBlockTest, WithoutCommitThereIsNoFile) {
-  const fs::path path = fs::path(::testing::TempDir()) / "morsel_abandoned_block";
+  const TestFolder folder;
+  const fs::path path = folder.path() / "block";
   Random random(1);
   SearchBlockWriter(path).add("a", random_signature(Set::kRandom, random));
   EXPECT_FALSE(fs::exists(path));
 }
 
 TEST(SearchBlockTest, AnEmptyBlock) {
-  const fs::path path = fs::path(::testing::TempDir()) / "morsel_empty_block";
+  const TestFolder folder;
+  const fs::path path = folder.path() / "block";
   write_search_block(path, {}, {});
   EXPECT_TRUE(SearchBlock::open(path).search({}, 3).empty());
-  fs::remove(path);
 }
 
 }  // namespace

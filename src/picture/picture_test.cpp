@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "base/test_folder.hpp"
 #include "base/test_shapes.hpp"
 #include "picture/contour.hpp"
 #include "picture/raster.hpp"
@@ -152,16 +153,8 @@ void expect_error(ErrorCode code, const std::string& part, const Body& body) {
 
 class PictureFileTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              (std::string("morsel_picture_") +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
+  TestFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST(PictureTest, ShowsEveryPartInItsColourOnWhite) {

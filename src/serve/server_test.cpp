@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -9,6 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "base/test_folder.hpp"
+
 namespace morsel {
 namespace {
 
@@ -16,18 +17,11 @@ class ServerTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!has_web_app()) GTEST_SKIP() << "built without the web app";
-    folder_ = std::filesystem::temp_directory_path() /
-              ("morsel_server_" + std::to_string(::getpid()) + "_" +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
     database_.emplace(Database::open(folder_ / "s.db", Access::kCreate));
   }
-  void TearDown() override {
-    database_.reset();
-    std::filesystem::remove_all(folder_);
-  }
 
-  std::filesystem::path folder_;
+  TestFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path();
   std::optional<Database> database_;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "base/test_folder.hpp"
 #include "base/test_shapes.hpp"
 
 namespace morsel::store {
@@ -42,16 +43,6 @@ inline ShapeData varied(ShapeData data, std::uint64_t seed) {
 /// A folder of its own for each test.
 class DatabaseTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("morsel_store_") + test->test_suite_name() + "_" + test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    file_ = folder_ / "shapes.db";
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] Database create() const { return Database::open(file_, Access::kCreate); }
 
   [[nodiscard]] std::vector<std::string> names_in_folder() const {
@@ -72,8 +63,9 @@ class DatabaseTest : public ::testing::Test {
     std::ofstream(path, std::ios::binary) << bytes;
   }
 
-  std::filesystem::path folder_;
-  std::filesystem::path file_;
+  TestFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path();
+  std::filesystem::path file_ = folder_ / "shapes.db";
 };
 
 /// The message of the morsel::Error of `code` that `work` throws.
