@@ -45,10 +45,9 @@ struct Interior {
   std::size_t outer_cells = 0;
   double volume = 0.0;  ///< of the inner cells, in cubed units
   // Of the default method alone:
-  std::vector<Opening>
-      openings;             ///< of the inside's surface, the widest first
-  double open_share = 0.0;  ///< of the inside's surface: what the openings take, 0 … 1
-  double bare_share = 0.0;  ///< of the points' surface: what has no inside behind it, 0 … 1
+  std::vector<Opening> openings;  ///< of the inside's surface, the widest first
+  double open_share = 0.0;        ///< of the inside's surface: what the openings take, 0 … 1
+  double bare_share = 0.0;        ///< of the points' surface: what has no inside behind it, 0 … 1
 };
 
 /// Labels each cell inner, outer or open. `lambda` is mean_neighbor_distance of the vertices.
