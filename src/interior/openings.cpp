@@ -112,12 +112,15 @@ std::vector<Passage> find_passages(const DelaunayComplex& complex,
 }
 
 // Whether an inner cell touches each vertex.
-std::vector<char> find_backed(const DelaunayComplex& complex, const std::vector<CellSide>& side) {
-  std::vector<char> backed(complex.vertices.size(), 0);
-  for (std::size_t c = 0; c < side.size(); ++c) {
-    if (side[c] != CellSide::kInner) continue;
-    for (const std::uint32_t v : complex.cells[c]) backed[v] = 1;
-  }
+std::vector<char> find_backed(const VertexCells& vertex_cells, const std::vector<CellSide>& side,
+                              std::size_t vertices, int threads) {
+  std::vector<char> backed(vertices, 0);
+  const auto inner = [&](std::uint32_t c) { return side[c] == CellSide::kInner; };
+  parallel_ranges(vertices, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      backed[v] = std::ranges::any_of(vertex_cells.of(v), inner) ? 1 : 0;
+    }
+  });
   return backed;
 }
 
@@ -355,7 +358,7 @@ double close_openings(const DelaunayComplex& complex, const VertexCells& vertex_
   const double total = std::accumulate(area.begin(), area.end(), 0.0);
   std::vector<Passage> passages;
   for (int round = 0;; ++round) {
-    const std::vector<char> backed = find_backed(complex, side);
+    const std::vector<char> backed = find_backed(vertex_cells, side, area.size(), threads);
     double bare = 0.0;  // at most
     for (std::size_t v = 0; v < area.size(); ++v) bare += backed[v] != 0 ? 0.0 : area[v];
     if (bare < kSmallestPocket * total) return 0.0;

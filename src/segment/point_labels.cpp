@@ -66,8 +66,16 @@ void spread_labels(const DelaunayComplex& complex, const VertexCells& vertex_cel
       }
     }
   };
+  // Few vertices have no label, so they look for those that have one.
   for (std::uint32_t v = 0; v < basin_of_vertex.size(); ++v) {
-    if (basin_of_vertex[v] != kNoBasin) offer_around(v);
+    if (basin_of_vertex[v] != kNoBasin) continue;
+    for (const std::uint32_t c : vertex_cells.of(v)) {
+      for (const std::uint32_t w : complex.cells[c]) {
+        if (basin_of_vertex[w] == kNoBasin) continue;
+        const double squared = squared_distance(complex.vertices[v], complex.vertices[w]);
+        offers.emplace(squared, v, basin_of_vertex[w]);
+      }
+    }
   }
   while (!offers.empty()) {
     const auto [squared, v, basin] = offers.top();
