@@ -90,4 +90,10 @@ std::vector<ClassedShape> list_shapes(const fs::path& folder, const IdFilter& fi
   return shapes;
 }
 
+std::vector<std::string> categories_of(const std::vector<ClassedShape>& shapes) {
+  std::vector<std::string> categories;
+  for (const ClassedShape& shape : shapes) categories.push_back(shape.category);
+  return categories;
+}
+
 }  // namespace morsel::bench

@@ -28,4 +28,7 @@ struct ClassedShape {
 [[nodiscard]] std::vector<ClassedShape> list_shapes(const std::filesystem::path& folder,
                                                     const IdFilter& filter);
 
+/// (n) the category of each.
+[[nodiscard]] std::vector<std::string> categories_of(const std::vector<ClassedShape>& shapes);
+
 }  // namespace morsel::bench

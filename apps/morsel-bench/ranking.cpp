@@ -55,4 +55,11 @@ Retrieval rank(std::span<const double> scores, std::span<const std::string> cate
   return {share * sum.nearest, share * sum.first_tier, share * sum.second_tier, share * sum.gain};
 }
 
+void add_measures(const Retrieval& retrieval, nlohmann::ordered_json& json) {
+  json["nearest_neighbor"] = retrieval.nearest;
+  json["first_tier"] = retrieval.first_tier;
+  json["second_tier"] = retrieval.second_tier;
+  json["discounted_gain"] = retrieval.gain;
+}
+
 }  // namespace morsel::bench

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,5 +25,8 @@ struct Retrieval {
 [[nodiscard]] Retrieval rank(std::span<const double> scores,
                              std::span<const std::string> categories,
                              std::span<const std::size_t> queries);
+
+/// Adds the four measures to a JSON object, by name.
+void add_measures(const Retrieval& retrieval, nlohmann::ordered_json& json);
 
 }  // namespace morsel::bench

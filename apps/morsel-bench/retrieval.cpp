@@ -197,13 +197,11 @@ void print_and_add(const std::string& title, const std::vector<Described>& queri
                r.first_tier, r.second_tier, r.gain, ranked[1].gain, ranked[2].gain);
     std::fflush(stdout);
     for (std::size_t k = 0; k < askers.size(); ++k) {
-      report["runs"].push_back({{"run", title},
-                                {"score", method.name.substr(method.name.find_first_not_of(' '))},
-                                {"queries", askers[k].name},
-                                {"nearest_neighbor", ranked[k].nearest},
-                                {"first_tier", ranked[k].first_tier},
-                                {"second_tier", ranked[k].second_tier},
-                                {"discounted_gain", ranked[k].gain}});
+      ordered_json run = {{"run", title},
+                          {"score", method.name.substr(method.name.find_first_not_of(' '))},
+                          {"queries", askers[k].name}};
+      add_measures(ranked[k], run);
+      report["runs"].push_back(std::move(run));
     }
   }
 }
@@ -237,8 +235,7 @@ void run(const RetrievalOptions& options) {
   const std::vector<ClassedShape> shapes =
       options.classes.empty() ? list_shapes(options.folder, filter)
                               : read_classification(options.classes, options.folder);
-  std::vector<std::string> categories;
-  for (const ClassedShape& shape : shapes) categories.push_back(shape.category);
+  const std::vector<std::string> categories = categories_of(shapes);
   const std::vector<double> levels = options.noise_levels();
   const auto outcomes =
       run_isolated(shapes.size() * levels.size(), options.threads, [&](std::size_t job) {

@@ -8,6 +8,7 @@
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collection.hpp"
@@ -137,13 +138,10 @@ void print_and_add(const std::string& name, const Moved& moved, ordered_json& re
              std::ranges::max(moved.changed), moved.ranked.nearest, moved.ranked.first_tier,
              moved.ranked.second_tier, moved.ranked.gain);
   std::fflush(stdout);
-  report["runs"].push_back({{"run", name},
-                            {"distances", moved.distances},
-                            {"changed_values", moved.changed},
-                            {"nearest_neighbor", moved.ranked.nearest},
-                            {"first_tier", moved.ranked.first_tier},
-                            {"second_tier", moved.ranked.second_tier},
-                            {"discounted_gain", moved.ranked.gain}});
+  ordered_json run = {
+      {"run", name}, {"distances", moved.distances}, {"changed_values", moved.changed}};
+  add_measures(moved.ranked, run);
+  report["runs"].push_back(std::move(run));
 }
 
 void run(const StabilityOptions& options) {
@@ -152,8 +150,7 @@ void run(const StabilityOptions& options) {
   const std::vector<Signature> stored = read_stored(options.block, shapes);
   const std::vector<std::size_t> queries = queries_of(shapes, options.per_class);
   const std::vector<Variant> variants = variants_of(options);
-  std::vector<std::string> categories;
-  for (const ClassedShape& shape : shapes) categories.push_back(shape.category);
+  const std::vector<std::string> categories = categories_of(shapes);
 
   ordered_json report = report_head("stability", options);
   for (const std::size_t query : queries) report["queries"].push_back(shapes[query].name);

@@ -160,12 +160,12 @@ Interior label_by_flood(const DelaunayComplex& complex, const VertexCells& verte
   for (std::uint32_t c = 0; c < interior.side.size(); ++c) {
     if (interior.side[c] == CellSide::kOpen && is_seed(c)) interior.side[c] = CellSide::kInner;
   }
-  const auto outer = std::ranges::count(interior.side, CellSide::kOuter);
-  interior.bare_share = close_openings(complex, vertex_cells, lambda, interior.side, threads);
-  const bool leaked = std::ranges::count(interior.side, CellSide::kOuter) != outer;
+  const Closing closing =
+      close_openings(complex, vertex_cells, lambda, kSeedCosine, interior.side, threads);
+  interior.bare_share = closing.bare_share;
   flood(complex, ratio, interior.side, threads);
   drop_flecks(complex, interior.side);
-  Openings openings = find_openings(complex, lambda, interior.side, leaked, threads);
+  Openings openings = find_openings(complex, lambda, interior.side, closing.leaked, threads);
   interior.openings = std::move(openings.list);
   interior.open_share = openings.share;
   return interior;

@@ -23,7 +23,6 @@ constexpr double kWallsPerOpening = 3.0;
 // Smaller shares of the surface are not worth a pocket, nor a look for one.
 constexpr double kSmallestPocket = 0.01;
 constexpr int kMostPockets = 8;
-constexpr double kDeepCosine = 0.5;       // as in the walk from outside
 constexpr double kSmallestOpening = 2.0;  // radius over spacing; below, chance gaps of the sampling
 // Smaller areas than these are chance bridges across creases: of the widest opening's where a leak
 // says that there is one, else of the inside's surface.
@@ -81,8 +80,11 @@ int way_up(const DelaunayComplex& complex, const std::vector<CellSide>& side, st
   return best;
 }
 
+// Between the outer cells and the unbounded outside, where the walk from outside may go: the balls
+// meet at an angle of a cosine above `min_cosine`.
 std::vector<Passage> find_passages(const DelaunayComplex& complex,
-                                   const std::vector<CellSide>& side) {
+                                   const std::vector<CellSide>& side, double min_cosine,
+                                   int threads) {
   std::vector<Passage> passages;
   const auto unbounded = static_cast<std::uint32_t>(complex.cell_count());
   for (std::uint32_t c = 0; c < unbounded; ++c) {
@@ -97,7 +99,7 @@ std::vector<Passage> find_passages(const DelaunayComplex& complex,
       if (d != kNoCell && (d < c || side[d] != CellSide::kOuter)) continue;
       const double cosine =
           d == kNoCell ? cos_hull_angle(complex, c, i) : cos_ball_angle(complex, c, d);
-      if (!(cosine > kDeepCosine)) continue;
+      if (!(cosine > min_cosine)) continue;
       const Facet facet = facet_of(complex, c, i);
       const bool here = !is_beyond(facet, complex.centers[c]);
       const bool there = d == kNoCell || is_beyond(facet, complex.centers[d]);
@@ -107,7 +109,7 @@ std::vector<Passage> find_passages(const DelaunayComplex& complex,
       passages.push_back({radius, c, d == kNoCell ? unbounded : d});
     }
   }
-  std::sort(passages.begin(), passages.end());
+  parallel_sort(passages, threads);
   return passages;
 }
 
@@ -241,20 +243,16 @@ class Pockets {
 
 struct Pocket {
   double value = 0.0;          // surface gained beyond what the opening takes, an area
-  double radius = 0.0;         // of the opening
   std::uint32_t cell = kNone;  // one of its cells
 };
 
 // The pocket that is worth most.
-Pocket find_pocket(const std::vector<Passage>& passages, const std::vector<CellSide>& side,
+Pocket find_pocket(const std::vector<Passage>& passages, std::uint32_t unbounded,
                    const std::vector<Poles>& poles, const std::vector<char>& backed,
                    const std::vector<double>& area) {
-  const auto unbounded = static_cast<std::uint32_t>(side.size());
-  Pockets pockets(poles, backed, area, side.size());
+  Pockets pockets(poles, backed, area, unbounded);
   Pocket best;
   for (const Passage& passage : passages) {
-    if (side[passage.a] != CellSide::kOuter) continue;
-    if (passage.b != unbounded && side[passage.b] != CellSide::kOuter) continue;
     const std::uint32_t a = pockets.root(passage.a);
     const std::uint32_t b = pockets.root(passage.b);
     if (a == b) continue;
@@ -262,7 +260,7 @@ Pocket find_pocket(const std::vector<Passage>& passages, const std::vector<CellS
     const double cost = kWallsPerOpening * std::numbers::pi * passage.radius * passage.radius;
     for (const auto& [set, cell] : {std::pair{a, passage.a}, std::pair{b, passage.b}}) {
       const double value = pockets.gain(set) - cost;
-      if (set != outside && value > best.value) best = {value, passage.radius, cell};
+      if (set != outside && value > best.value) best = {value, cell};
     }
     pockets.join(a, b);
   }
@@ -270,14 +268,12 @@ Pocket find_pocket(const std::vector<Passage>& passages, const std::vector<CellS
 }
 
 // Labels the pocket inner, and of the other outer cells those that it reaches by wider passages
-// than the unbounded outside does.
-void fill_pocket(const std::vector<Passage>& passages, const Pocket& pocket,
+// than the unbounded outside does. Leaves the passages that are still outside.
+void fill_pocket(std::vector<Passage>& passages, const Pocket& pocket,
                  std::vector<CellSide>& side) {
   const auto unbounded = static_cast<std::uint32_t>(side.size());
   UnionFind sets(side.size() + 1);
   for (const Passage& passage : passages) {
-    if (side[passage.a] != CellSide::kOuter) continue;
-    if (passage.b != unbounded && side[passage.b] != CellSide::kOuter) continue;
     const std::uint32_t a = sets.root(passage.a);
     const std::uint32_t b = sets.root(passage.b);
     const std::uint32_t inside = sets.root(pocket.cell);
@@ -290,6 +286,10 @@ void fill_pocket(const std::vector<Passage>& passages, const Pocket& pocket,
       side[c] = CellSide::kInner;
     }
   }
+  const auto filled = [&](std::uint32_t c) {
+    return c != unbounded && side[c] == CellSide::kInner;
+  };
+  std::erase_if(passages, [&](const Passage& p) { return filled(p.a) || filled(p.b); });
 }
 
 // A facet between inside and outside that is too wide for the sampling there.
@@ -340,18 +340,21 @@ std::vector<WideFacet> find_wide_facets(const DelaunayComplex& complex,
   return visit_walls<WideFacet>(complex, side, threads, visit);
 }
 
-double surface_area(const DelaunayComplex& complex, const std::vector<CellSide>& side) {
-  double sum = 0.0;
-  visit_walls<double>(complex, side, 1, [&](std::uint32_t c, int i, std::vector<double>& /*none*/) {
-    sum += area_of(facet_of(complex, c, i));
-  });
-  return sum;
+double surface_area(const DelaunayComplex& complex, const std::vector<CellSide>& side,
+                    int threads) {
+  const auto visit = [&](std::uint32_t c, int i, std::vector<double>& areas) {
+    areas.push_back(area_of(facet_of(complex, c, i)));
+  };
+  const auto areas = visit_walls<double>(complex, side, threads, visit);
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 }  // namespace
 
-double close_openings(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-                      const std::vector<double>& lambda, std::vector<CellSide>& side, int threads) {
+Closing close_openings(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                       const std::vector<double>& lambda, double min_cosine,
+                       std::vector<CellSide>& side, int threads) {
+  const auto unbounded = static_cast<std::uint32_t>(side.size());
   std::vector<double> area(lambda.size());
   std::ranges::transform(lambda, area.begin(),
                          [](double l) { return kAreaPerSquaredLambda * l * l; });
@@ -361,14 +364,16 @@ double close_openings(const DelaunayComplex& complex, const VertexCells& vertex_
     const std::vector<char> backed = find_backed(vertex_cells, side, area.size(), threads);
     double bare = 0.0;  // at most
     for (std::size_t v = 0; v < area.size(); ++v) bare += backed[v] != 0 ? 0.0 : area[v];
-    if (bare < kSmallestPocket * total) return 0.0;
+    const bool leaked = round > 0;
+    if (bare < kSmallestPocket * total) return {leaked, 0.0};
     const auto poles = find_poles(complex, vertex_cells, side, backed, threads);
     bare = 0.0;
     for (std::size_t v = 0; v < area.size(); ++v) bare += poles[v].second != kNone ? area[v] : 0.0;
-    if (bare < kSmallestPocket * total || round == kMostPockets) return bare / total;
-    if (round == 0) passages = find_passages(complex, side);
-    const Pocket pocket = find_pocket(passages, side, poles, backed, area);
-    if (pocket.value < kSmallestPocket * total) return bare / total;
+    const Closing closing{leaked, bare / total};
+    if (bare < kSmallestPocket * total || round == kMostPockets) return closing;
+    if (!leaked) passages = find_passages(complex, side, min_cosine, threads);
+    const Pocket pocket = find_pocket(passages, unbounded, poles, backed, area);
+    if (pocket.value < kSmallestPocket * total) return closing;
     fill_pocket(passages, pocket, side);
   }
 }
@@ -395,10 +400,10 @@ Openings find_openings(const DelaunayComplex& complex, const std::vector<double>
     sum.moment = sum.moment + facet.area * facet.center;
     sum.spacing = std::max(sum.spacing, facet.spacing);
   }
-  const double surface = surface_area(complex, side);
+  const double surface = surface_area(complex, side, threads);
   double largest = 0.0;
   for (const auto& [rim, sum] : sums) largest = std::max(largest, sum.area);
-  const double least = (leaked ? kNotableBesideWidest * largest : kNotableShare * surface);
+  const double least = leaked ? kNotableBesideWidest * largest : kNotableShare * surface;
   for (const auto& [rim, sum] : sums) {
     const double radius = std::sqrt(sum.area / std::numbers::pi);
     if (sum.area < least || radius < kSmallestOpening * sum.spacing) continue;
