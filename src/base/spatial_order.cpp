@@ -1,12 +1,14 @@
 #include "base/spatial_order.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <morsel/error.hpp>
 #include <string>
 #include <tuple>
 
 #include "base/box.hpp"
 #include "base/morton.hpp"
+#include "base/threads.hpp"
 
 namespace morsel {
 namespace {
@@ -23,9 +25,10 @@ std::uint64_t quantize(double value, double low, double scale) {
   return static_cast<std::uint64_t>(std::clamp((value - low) * scale, 0.0, kLast));
 }
 
-bool before(const Entry& a, const Entry& b) {
-  return std::tie(a.code, a.point.x, a.point.y, a.point.z) <
-         std::tie(b.code, b.point.x, b.point.y, b.point.z);
+bool operator<(const Entry& a, const Entry& b) {
+  if (a.code != b.code) return a.code < b.code;
+  return std::tie(a.point.x, a.point.y, a.point.z, a.index) <
+         std::tie(b.point.x, b.point.y, b.point.z, b.index);
 }
 
 void check_points(std::span<const Vec3> points) {
@@ -38,31 +41,34 @@ void check_points(std::span<const Vec3> points) {
                                      " is not finite; remove it or mend its coordinates");
 }
 
-std::vector<Entry> sorted_entries(std::span<const Vec3> points) {
+std::vector<Entry> sorted_entries(std::span<const Vec3> points, int threads) {
   const Box box = bounding_box(points);
   const Vec3 low = box.low;
   const double extent = box.longest_side();
   const double scale = extent > 0.0 && extent < 1e300 ? 2097152.0 / extent : 0.0;
   std::vector<Entry> entries(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 p = points[i] + Vec3{0.0, 0.0, 0.0};  // -0.0 becomes 0.0
-    entries[i] = {spread_bits(quantize(p.x, low.x, scale)) << 2 |
-                      spread_bits(quantize(p.y, low.y, scale)) << 1 |
-                      spread_bits(quantize(p.z, low.z, scale)),
-                  p, static_cast<std::uint32_t>(i)};
-  }
-  std::sort(entries.begin(), entries.end(), before);
+  parallel_ranges(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 p = points[i] + Vec3{0.0, 0.0, 0.0};  // -0.0 becomes 0.0
+      entries[i] = {spread_bits(quantize(p.x, low.x, scale)) << 2 |
+                        spread_bits(quantize(p.y, low.y, scale)) << 1 |
+                        spread_bits(quantize(p.z, low.z, scale)),
+                    p, static_cast<std::uint32_t>(i)};
+    }
+  });
+  // A cloud without outliers comes here once in order already.
+  if (!std::ranges::is_sorted(entries, std::less<>())) parallel_sort(entries, threads);
   return entries;
 }
 
 }  // namespace
 
-SpatialOrder sort_spatially(std::span<const Vec3> points) {
+SpatialOrder sort_spatially(std::span<const Vec3> points, int threads) {
   check_points(points);
   SpatialOrder order;
   order.points.reserve(points.size());
   order.order_of_point.resize(points.size());
-  for (const Entry& entry : sorted_entries(points)) {
+  for (const Entry& entry : sorted_entries(points, threads)) {
     if (order.points.empty() || !(order.points.back() == entry.point)) {
       order.points.push_back(entry.point);
     }

@@ -16,7 +16,8 @@ struct SpatialOrder {
 
 /// Sorts by Morton code of the bounding cube, ties by coordinates; repeated points are kept once.
 /// -0.0 counts as 0.0. Throws Error(kInput) for 2^31 points or more, and naming the index of a
-/// point that is not finite: every stage that takes bare points begins here. Cost: O(n log n).
-[[nodiscard]] SpatialOrder sort_spatially(std::span<const Vec3> points);
+/// point that is not finite: every stage that takes bare points begins here.
+/// Cost: O(n log n), O(n) where they are in order already.
+[[nodiscard]] SpatialOrder sort_spatially(std::span<const Vec3> points, int threads = 1);
 
 }  // namespace morsel

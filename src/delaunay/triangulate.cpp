@@ -7,13 +7,13 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
-#include <iterator>
 #include <morsel/delaunay.hpp>
 #include <utility>
 
 #include "base/spatial_order.hpp"
 #include "base/threads.hpp"
 #include "delaunay/balls.hpp"
+#include "delaunay/insertion.hpp"
 
 namespace morsel {
 namespace {
@@ -53,8 +53,8 @@ Quad take(const Quad& values, const std::array<std::uint8_t, 4>& slots) {
   return {values[slots[0]], values[slots[1]], values[slots[2]], values[slots[3]]};
 }
 
-// Canonical cells by their vertices: a counting sort by the smallest, which comes first, small
-// sorts inside. Says where each cell goes.
+// Where each cell goes, so that they ascend by their vertices: a counting sort by the smallest,
+// which comes first, small sorts inside.
 std::vector<std::uint32_t> canonical_places(const std::vector<Quad>& vertices,
                                             std::size_t vertex_count, int threads) {
   std::vector<std::uint32_t> begins(vertex_count + 1, 0);
@@ -65,25 +65,30 @@ std::vector<std::uint32_t> canonical_places(const std::vector<Quad>& vertices,
   for (std::uint32_t c = 0; c < vertices.size(); ++c) order[ends[vertices[c][0]]++] = c;
   std::vector<std::uint32_t> places(vertices.size());
   parallel_ranges(vertex_count, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::pair<Quad, std::uint32_t>> group;
     for (std::size_t v = begin; v < end; ++v) {
-      std::sort(order.begin() + begins[v], order.begin() + begins[v + 1],
-                [&](std::uint32_t a, std::uint32_t b) { return vertices[a] < vertices[b]; });
-      for (std::uint32_t i = begins[v]; i < begins[v + 1]; ++i) places[order[i]] = i;
+      group.clear();
+      for (std::uint32_t i = begins[v]; i < begins[v + 1]; ++i) {
+        group.emplace_back(vertices[order[i]], order[i]);
+      }
+      std::sort(group.begin(), group.end());
+      for (std::uint32_t i = begins[v]; const auto& entry : group) places[entry.second] = i++;
     }
   });
   return places;
 }
 
-// CGAL's cells lie scattered in memory: they are gone through once for their vertices, which say
-// where each belongs, and once for their neighbours.
+// CGAL's cells lie scattered in memory: each is visited once, for its vertices and for its
+// neighbours' numbers in CGAL's order.
 template <typename Delaunay>
 void copy_cells(const Delaunay& delaunay, DelaunayComplex& complex, int threads) {
   std::vector<typename Delaunay::Cell_handle> cells;
   cells.reserve(delaunay.tds().cells().size());
   const auto infinite = delaunay.infinite_vertex();
   for (auto it = delaunay.all_cells_begin(); it != delaunay.all_cells_end(); ++it) {
-    it->info() = kNoCell;
-    if (!it->has_vertex(infinite)) cells.push_back(it);
+    const bool finite = !it->has_vertex(infinite);
+    it->info() = finite ? static_cast<std::uint32_t>(cells.size()) : kNoCell;
+    if (finite) cells.push_back(it);
   }
   const auto each = [&](const auto& visit) {
     parallel_ranges(cells.size(), threads, [&](std::size_t begin, std::size_t end) {
@@ -91,34 +96,30 @@ void copy_cells(const Delaunay& delaunay, DelaunayComplex& complex, int threads)
     });
   };
   std::vector<Quad> vertices(cells.size());
-  std::vector<std::array<std::uint8_t, 4>> slots(cells.size());
+  std::vector<Quad> neighbors(cells.size());
   each([&](std::size_t c) {
-    for (int i = 0; i < 4; ++i) vertices[c][i] = cells[c]->vertex(i)->info();
-    slots[c] = canonical_slots(vertices[c]);
-    vertices[c] = take(vertices[c], slots[c]);
+    for (int i = 0; i < 4; ++i) {
+      vertices[c][i] = cells[c]->vertex(i)->info();
+      neighbors[c][i] = cells[c]->neighbor(i)->info();
+    }
+    const auto slots = canonical_slots(vertices[c]);
+    vertices[c] = take(vertices[c], slots);
+    neighbors[c] = take(neighbors[c], slots);
   });
   const auto places = canonical_places(vertices, complex.vertices.size(), threads);
-  each([&](std::size_t c) { cells[c]->info() = places[c]; });
   complex.cells.resize(cells.size());
   complex.neighbors.resize(cells.size());
   each([&](std::size_t c) {
-    Quad neighbors{};
-    for (int i = 0; i < 4; ++i) neighbors[i] = cells[c]->neighbor(i)->info();
     complex.cells[places[c]] = vertices[c];
-    complex.neighbors[places[c]] = take(neighbors, slots[c]);
+    for (std::uint32_t& d : neighbors[c]) d = d == kNoCell ? kNoCell : places[d];
+    complex.neighbors[places[c]] = neighbors[c];
   });
 }
 
 template <typename Delaunay>
-void insert_and_copy(Delaunay& delaunay, DelaunayComplex& complex, int threads,
-                     const Progress* progress) {
-  std::vector<std::pair<Kernel::Point_3, std::uint32_t>> points;
-  points.reserve(complex.vertices.size());
-  for (const Vec3& v : complex.vertices) {
-    points.emplace_back(Kernel::Point_3(v.x, v.y, v.z), static_cast<std::uint32_t>(points.size()));
-  }
-  delaunay.insert(points.begin(), points.end());
-  if (progress != nullptr) progress->check();
+void insert_and_copy(Delaunay& delaunay, typename Delaunay::Lock_data_structure* locks,
+                     DelaunayComplex& complex, int threads, const Progress* progress) {
+  Insertion<Delaunay>(delaunay, complex.vertices, locks).run(progress);
   complex.dimension = delaunay.dimension();
   if (complex.dimension == 3) copy_cells(delaunay, complex, threads);
 }
@@ -128,9 +129,10 @@ void triangulate_parallel(DelaunayComplex& complex, int threads, const Progress*
   arena.execute([&] {
     CGAL::Bbox_3 box;
     for (const Vec3& v : complex.vertices) box += CGAL::Bbox_3(v.x, v.y, v.z, v.x, v.y, v.z);
-    Triangulation<CGAL::Parallel_tag>::Lock_data_structure locks(box, kLockGridSize);
-    Triangulation<CGAL::Parallel_tag> delaunay(Kernel(), &locks);
-    insert_and_copy(delaunay, complex, threads, progress);
+    using Delaunay = Triangulation<CGAL::Parallel_tag>;
+    Delaunay::Lock_data_structure locks(box, kLockGridSize);
+    Delaunay delaunay(Kernel(), &locks);
+    insert_and_copy(delaunay, &locks, complex, threads, progress);
   });
 }
 
@@ -139,15 +141,15 @@ void triangulate_parallel(DelaunayComplex& complex, int threads, const Progress*
 DelaunayComplex triangulate(std::span<const Vec3> points, const TriangulateOptions& options,
                             const Progress* progress) {
   DelaunayComplex complex;
-  SpatialOrder order = sort_spatially(points);
+  const int threads = resolve_threads(options.threads);
+  SpatialOrder order = sort_spatially(points, threads);
   complex.vertices = std::move(order.points);
   complex.vertex_of_point = std::move(order.order_of_point);
-  const int threads = resolve_threads(options.threads);
   if (threads > 1 && complex.vertices.size() >= kParallelThreshold) {
     triangulate_parallel(complex, threads, progress);
   } else {
     Triangulation<CGAL::Sequential_tag> delaunay;
-    insert_and_copy(delaunay, complex, threads, progress);
+    insert_and_copy(delaunay, nullptr, complex, threads, progress);
   }
   compute_balls(complex, threads);
   return complex;

@@ -257,6 +257,14 @@ TEST(TriangulateTest, NamesThePointThatIsNotFinite) {
   }
 }
 
+TEST(TriangulateTest, ManyPointsInOnePlaneHaveNoCells) {
+  Points flat = shapes::cube_cloud(55000);
+  for (Vec3& p : flat) p.z = 0.0;
+  const DelaunayComplex complex = triangulate(flat, {.threads = 2});
+  EXPECT_EQ(complex.dimension, 2);
+  EXPECT_EQ(complex.cell_count(), 0U);
+}
+
 TEST(TriangulateTest, CanBeCancelled) {
   Progress progress;
   progress.cancel();

@@ -65,7 +65,7 @@ struct Cleaned {
 };
 
 Cleaned drop_outliers(std::span<const Vec3> input, int threads) {
-  SpatialOrder order = sort_spatially(input);
+  SpatialOrder order = sort_spatially(input, threads);
   const Neighborhoods neighborhoods = find_neighborhoods(order.points, kNeighbors, threads);
   const std::vector<bool> drop = find_outliers(neighborhoods, threads);
   Cleaned cleaned;
