@@ -17,7 +17,7 @@ _morsel() {
   local shapes='ply|pcd|xyz|txt|pts|csv|off|obj|npy|las|stl|gltf|glb'
   local mesh='--sample --noise --seed --threads --help'
   local segmenting='--method --big-ball-ratio --deep-angle --denoise'
-  local score='--method --no-mirror'
+  local score='--method --mode --no-mirror'
   local options=''
   COMPREPLY=()
   shopt -q extglob || { shopt -s extglob; trap 'shopt -u extglob; trap - RETURN' RETURN; }
@@ -50,6 +50,7 @@ _morsel() {
   fi
   case $prev in
     --method) _morsel_words 'default paper' ;;
+    --mode) _morsel_words 'rigid articulated' ;;
     --denoise) _morsel_words 'auto off 1 2 3' ;;
     --labels) _morsel_files ;;
     --database) _morsel_files db ;;

@@ -7,7 +7,9 @@
 
 namespace morsel::bench {
 
-/// Turned, scaled by e^-2 to e^2 and moved by ten units at random; half of all are mirrored.
-[[nodiscard]] std::vector<Vec3> posed(std::vector<Vec3> points, std::uint64_t seed);
+/// Turned, scaled by e^-2 to e^2 and moved by ten units at random; half of all are mirrored, if
+/// `mirror` allows.
+[[nodiscard]] std::vector<Vec3> posed(std::vector<Vec3> points, std::uint64_t seed,
+                                      bool mirror = true);
 
 }  // namespace morsel::bench

@@ -89,6 +89,24 @@ Cloud sample_cloud(const TriangleMesh& mesh, int id, const CloudOptions& options
   return cloud;
 }
 
+std::vector<Vec3> carried_over(const Cloud& cloud, const TriangleMesh& from,
+                               const TriangleMesh& to) {
+  std::vector<Vec3> points;
+  points.reserve(cloud.sample_count());
+  for (std::size_t i = 0; i < cloud.sample_count(); ++i) {
+    const auto& [a, b, c] = from.triangles[cloud.triangle[i]];
+    const Vec3 u = from.vertices[b] - from.vertices[a];
+    const Vec3 v = from.vertices[c] - from.vertices[a];
+    const Vec3 p = cloud.points[i] - from.vertices[a];
+    const Vec3 normal = cross(u, v);
+    const double along_u = dot(cross(p, v), normal) / squared_norm(normal);
+    const double along_v = dot(cross(u, p), normal) / squared_norm(normal);
+    points.push_back(to.vertices[a] + along_u * (to.vertices[b] - to.vertices[a]) +
+                     along_v * (to.vertices[c] - to.vertices[a]));
+  }
+  return points;
+}
+
 std::vector<int> face_labels(const TriangleMesh& mesh, const Cloud& cloud,
                              std::span<const int> labels) {
   std::vector<std::pair<std::uint32_t, int>> votes;

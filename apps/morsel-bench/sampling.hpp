@@ -35,6 +35,10 @@ struct Cloud {
 
 [[nodiscard]] Cloud sample_cloud(const TriangleMesh& mesh, int id, const CloudOptions& options);
 
+/// Where the samples of `from` lie on `to`, the same triangles in another posture.
+[[nodiscard]] std::vector<Vec3> carried_over(const Cloud& cloud, const TriangleMesh& from,
+                                             const TriangleMesh& to);
+
 /// The label of each face: that of most of its samples, the smallest such; a face without samples
 /// takes that of the sample nearest to its centroid. `labels` are those of the cloud's points.
 [[nodiscard]] std::vector<int> face_labels(const TriangleMesh& mesh, const Cloud& cloud,

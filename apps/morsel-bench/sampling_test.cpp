@@ -24,6 +24,19 @@ TEST(Sampling, SeedsDependOnRunAndModel) {
   EXPECT_NE(seed_of_model(1, 5), seed_of_model(2, 5));
 }
 
+TEST(Sampling, AreCarriedOverWithTheirTriangles) {
+  const TriangleMesh mesh = tetrahedron();
+  TriangleMesh moved = mesh;
+  for (Vec3& v : moved.vertices) v = {2.0 * v.y, v.x + v.z, 3.0 - v.z};  // affine, so exact
+  const Cloud cloud = sample_cloud(mesh, 3, {.points = 500});
+  const std::vector<Vec3> carried = carried_over(cloud, mesh, moved);
+  ASSERT_EQ(carried.size(), 500U);
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    const Vec3& p = cloud.points[i];
+    EXPECT_LT(distance(carried[i], {2.0 * p.y, p.x + p.z, 3.0 - p.z}), 1e-12);
+  }
+}
+
 TEST(Sampling, OutliersComeLastAndLeaveTheSamplesAlone) {
   const Cloud plain = sample_cloud(tetrahedron(), 3, {.points = 1000});
   const Cloud cloud = sample_cloud(tetrahedron(), 3, {.points = 1000, .outliers = 0.1});

@@ -68,6 +68,7 @@ std::string json_text(const Subject& a, const Subject& b, const Match& match) {
 }
 
 int run_compare(const Arguments& arguments) {
+  arguments.match.check();
   for (const std::string& input : {arguments.a, arguments.b}) {
     check_outputs({arguments.picture}, input);
   }

@@ -55,6 +55,7 @@ std::string csv_text(const SimilarityMatrix& matrix) {
 }
 
 int run_matrix(const Arguments& arguments) {
+  arguments.match.check();
   check_outputs({arguments.output, arguments.picture}, arguments.database);
   const Database database = Database::open(arguments.database, Access::kRead);
   Task task;

@@ -103,6 +103,15 @@ void add_match_options(CLI::App& app, MatchOptions& options) {
         options.method = method_of(name, text);
       })
       ->group("Score");
+  add(app, "--mode", "rigid|articulated",
+      "What is one shape: what can be turned onto each other, or also bent [rigid]",
+      [&options](const std::string& name, const std::string& text) {
+        if (text != "rigid" && text != "articulated") {
+          throw CLI::ValidationError(name, fmt::format("'{}' is not rigid or articulated", text));
+        }
+        options.mode = text == "rigid" ? MatchMode::kRigid : MatchMode::kArticulated;
+      })
+      ->group("Score");
   app.add_flag_callback(
          "--no-mirror", [&options] { options.mirror = false; },
          "A shape and its mirror image are two shapes")

@@ -38,7 +38,7 @@ void check_method_options(const CLI::App& app, const SegmentOptions& options);
 /// --threads, in the group `group`.
 void add_threads(CLI::App& app, int& threads, const std::string& group);
 
-/// --method and --no-mirror of the score.
+/// --method, --mode and --no-mirror of the score.
 void add_match_options(CLI::App& app, MatchOptions& options);
 
 /// An option that names a file to be written.

@@ -66,6 +66,7 @@ std::string json_text(const Answer& answer, const Arguments& arguments) {
   json["query"] = answer.query.name;
   json["database"] = arguments.database.string();
   json["method"] = arguments.match.method == Method::kPaper ? "paper" : "default";
+  json["mode"] = arguments.match.mode == MatchMode::kArticulated ? "articulated" : "rigid";
   json["hits"] = Json::array();
   for (std::size_t i = 0; i < answer.hits.size(); ++i) {
     const LookAlike& hit = answer.hits[i];
@@ -96,6 +97,7 @@ Answer find_answer(const Arguments& arguments, const Progress& progress) {
 }
 
 int run_search(const Arguments& arguments) {
+  arguments.match.check();
   check_outputs({arguments.picture}, arguments.query);
   Task task;
   const Answer answer = find_answer(arguments, task.progress());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <morsel/interior.hpp>
 #include <morsel/signature.hpp>
 #include <morsel/vec3.hpp>
@@ -12,15 +13,22 @@
 
 namespace morsel {
 
+/// What counts as the same shape.
+enum class MatchMode : std::uint8_t {
+  kRigid,        ///< turned, moved, scaled and, if allowed, mirrored
+  kArticulated,  ///< also bent at its joints: only what bending keeps, or nearly keeps, is compared
+};
+
 struct MatchOptions {
   Method method = Method::kDefault;  ///< the paper's score over weighted points, or the default one
   bool mirror = true;                ///< a shape and its mirror image count as the same
+  MatchMode mode = MatchMode::kRigid;
 
-  /// Throws Error(kUsage) that names field, value and range.
+  /// Throws Error(kUsage) for the paper's method in articulated mode: it knows nothing of bending.
   void check() const;
 };
 
-/// Two parts that lie on each other in the alignment.
+/// Two parts that lie on each other in the alignment, or beside each other in articulated mode.
 struct MatchedPart {
   int target = 0;  ///< part of the target
   int source = 0;  ///< part of the source
@@ -35,7 +43,9 @@ struct Match {
   /// scale and translation.
   std::array<double, 16> target_from_source{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   bool mirrored = false;
-  std::vector<MatchedPart> matched;   ///< by decreasing contribution; each part at most once
+  /// By decreasing contribution. Rigid: each part at most once. Articulated: each part at least
+  /// once, more often where the other shape's posture cuts it into several.
+  std::vector<MatchedPart> matched;
   std::vector<int> unmatched_target;  ///< parts without a counterpart, ascending
   std::vector<int> unmatched_source;
 };
@@ -60,7 +70,8 @@ struct ScoreTerm {
 /// Why two shapes score as they do: with Method::kDefault and mirroring allowed match_score() is
 /// exp(-Σ weight · distance). Empty when either has no size. Thread-safe; docs/signature.md says
 /// what each measure is.
-[[nodiscard]] std::vector<ScoreTerm> explain_score(const Signature& a, const Signature& b);
+[[nodiscard]] std::vector<ScoreTerm> explain_score(const Signature& a, const Signature& b,
+                                                   MatchMode mode = MatchMode::kRigid);
 
 /// The source's points, (n, 3) in its unit, where they lie on the target, in its unit.
 [[nodiscard]] std::vector<Vec3> on_target(const Match& match, std::span<const Vec3> points);

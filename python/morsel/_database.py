@@ -190,23 +190,23 @@ class Database:
         self._file.rename(old, new)
 
     def search(self, query: Comparable, top: int = 10, *, method: str = "default",
-               mirror: bool = True) -> builtins.list[LookAlike]:
+               mode: str = "rigid", mirror: bool = True) -> builtins.list[LookAlike]:
         """The shapes most like the query, best first, equal scores by name.
 
         Args:
             query: a segmentation, a signature, or points, which are segmented first.
             top: how many, at least 1.
-            method, mirror: as in match().
+            method, mode, mirror: as in match().
         """
         if top < 1:
             raise ValueError(f"top is {top}; it must be at least 1")
         return [LookAlike(ShapeInfo(*info), score) for info, score in
-                self._file.search(signature_bytes(query), top, method, mirror)]
+                self._file.search(signature_bytes(query), top, method, mode, mirror)]
 
-    def matrix(self, *, method: str = "default", mirror: bool = True, threads: int = 0,
-               progress: Progress | None = None) -> SimilarityMatrix:
+    def matrix(self, *, method: str = "default", mode: str = "rigid",
+               mirror: bool = True, threads: int = 0, progress: Progress | None = None) -> SimilarityMatrix:
         """The scores of all pairs. Arguments as in match() and segment()."""
-        shapes, scores = self._file.matrix(method, mirror, threads, progress)
+        shapes, scores = self._file.matrix(method, mode, mirror, threads, progress)
         return SimilarityMatrix([ShapeInfo(*info) for info in shapes], scores)
 
     def __repr__(self) -> str:

@@ -52,12 +52,14 @@ class Match:
 
 
 def match(target: Comparable, source: Comparable, *, method: str = "default",
-          mirror: bool = True) -> Match:
+          mode: str = "rigid", mirror: bool = True) -> Match:
     """Scores two shapes and aligns them.
 
     Args:
         target, source: segmentations, signatures, or points, which are segmented first.
         method: which score, "default" or the "paper"'s over weighted points.
+        mode: what counts as one shape: "rigid", what can be turned onto each other; "articulated",
+            also what was bent at its joints (no such mode with the paper's method).
         mirror: a shape and its mirror image count as the same.
 
     >>> half = morsel.segment(0.5 * points)
@@ -69,7 +71,7 @@ def match(target: Comparable, source: Comparable, *, method: str = "default",
     True
     """
     score, matrix, mirrored, pairs, unmatched_target, unmatched_source = _morsel.match(
-        signature_bytes(target), signature_bytes(source), method, mirror)
+        signature_bytes(target), signature_bytes(source), method, mode, mirror)
     return Match(score, matrix, mirrored, [Correspondence(*pair) for pair in pairs],
                  unmatched_target, unmatched_source)
 

@@ -149,9 +149,9 @@ void rename(const File& file, const std::string& from, const std::string& to) {
 }
 
 py::list search(const File& file, const std::string& query, std::size_t top,
-                const std::string& method, bool mirror) {
+                const std::string& method, const std::string& mode, bool mirror) {
   const std::shared_ptr<Database> database = file.database();
-  const MatchOptions options{method_of(method), mirror};
+  const MatchOptions options = match_options(method, mode, mirror);
   const std::vector<LookAlike> found =
       short_work([&] { return database->search(signature_of(query), top, options); });
   py::list list;
@@ -159,10 +159,10 @@ py::list search(const File& file, const std::string& query, std::size_t top,
   return list;
 }
 
-py::tuple matrix(const File& file, const std::string& method, bool mirror, int threads,
-                 const py::object& progress) {
+py::tuple matrix(const File& file, const std::string& method, const std::string& mode, bool mirror,
+                 int threads, const py::object& progress) {
   const std::shared_ptr<Database> database = file.database();
-  const MatchOptions options{method_of(method), mirror};
+  const MatchOptions options = match_options(method, mode, mirror);
   SimilarityMatrix found = long_work(progress, [&](const Progress& watched) {
     return database->matrix(options, threads, &watched);
   });
@@ -191,10 +191,10 @@ void bind_database(py::module_& module) {
       .def("signature", &signature, py::arg("name"))
       .def("remove", &remove, py::arg("names"))
       .def("rename", &rename, py::arg("old"), py::arg("new"))
-      .def("search", &search, py::arg("query"), py::arg("top"), py::arg("method"),
+      .def("search", &search, py::arg("query"), py::arg("top"), py::arg("method"), py::arg("mode"),
            py::arg("mirror"))
-      .def("matrix", &matrix, py::arg("method"), py::arg("mirror"), py::arg("threads"),
-           py::arg("progress"));
+      .def("matrix", &matrix, py::arg("method"), py::arg("mode"), py::arg("mirror"),
+           py::arg("threads"), py::arg("progress"));
 }
 
 }  // namespace morsel::python

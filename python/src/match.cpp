@@ -14,8 +14,8 @@ namespace morsel::python {
 namespace {
 
 py::tuple match_signatures(const std::string& target, const std::string& source,
-                           const std::string& method, bool mirror) {
-  const MatchOptions options{method_of(method), mirror};
+                           const std::string& method, const std::string& mode, bool mirror) {
+  const MatchOptions options = match_options(method, mode, mirror);
   const Match found =
       short_work([&] { return match(signature_of(target), signature_of(source), options); });
   py::list matched;
@@ -29,9 +29,19 @@ py::tuple match_signatures(const std::string& target, const std::string& source,
 
 }  // namespace
 
+MatchOptions match_options(const std::string& method, const std::string& mode, bool mirror) {
+  if (mode != "rigid" && mode != "articulated") {
+    throw Error(ErrorCode::kUsage, "mode is '" + mode + "'; it must be 'rigid' or 'articulated'");
+  }
+  const MatchOptions options{method_of(method), mirror,
+                             mode == "rigid" ? MatchMode::kRigid : MatchMode::kArticulated};
+  options.check();
+  return options;
+}
+
 void bind_match(py::module_& module) {
   module.def("match", &match_signatures, py::arg("target"), py::arg("source"), py::arg("method"),
-             py::arg("mirror"));
+             py::arg("mode"), py::arg("mirror"));
 }
 
 }  // namespace morsel::python

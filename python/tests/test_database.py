@@ -53,6 +53,7 @@ def test_search(database, toys):
     assert hits == database.search(query.signature, top=2)
     assert len(database.search(query.points)) == 3
     assert database.search(query, method="paper")[0].score <= 1
+    assert database.search(query, mode="articulated")[0].name == "ring"
     with pytest.raises(ValueError, match="top is 0"):
         database.search(query, top=0)
 

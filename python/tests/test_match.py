@@ -61,3 +61,16 @@ def test_bad_arguments(shape):
         morsel.match(shape, shape, method="x")
     with pytest.raises(ValueError, match="got an object of type str"):
         morsel.match(shape, "scan.ply")
+
+
+def test_articulated(target):
+    other = morsel.segment(target.points, parts=2)
+    found = morsel.match(target, other, mode="articulated")
+    assert found.score > 0.97
+    assert {pair.target for pair in found.correspondences} == {0, 1, 2}
+    assert {pair.source for pair in found.correspondences} == {0, 1}
+    assert found.unmatched_source == [] and found.unmatched_target == []
+    with pytest.raises(ValueError, match="'rigid' or 'articulated'"):
+        morsel.match(target, other, mode="bent")
+    with pytest.raises(ValueError, match="no articulated mode"):
+        morsel.match(target, other, mode="articulated", method="paper")

@@ -44,7 +44,8 @@ RunSums run_sums(const std::uint8_t* tables) {
   RunSums sums{};
   std::size_t run = 0;
   for (std::size_t k = 0; k < kTableBlocks.size(); ++k) {
-    const auto& [name, offset, size, source, unit] = kTableBlocks[k];
+    const std::size_t offset = kTableBlocks[k].offset;
+    const std::size_t size = kTableBlocks[k].size;
     for (std::size_t i = 0; i < kRunsOfBlock[k]; ++i, ++run) {
       const std::uint8_t* const begin = tables + offset + size * i / kRunsOfBlock[k];
       const std::uint8_t* const end = tables + offset + size * (i + 1) / kRunsOfBlock[k];

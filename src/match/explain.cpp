@@ -7,7 +7,7 @@
 
 namespace morsel {
 
-std::vector<ScoreTerm> explain_score(const Signature& a, const Signature& b) {
+std::vector<ScoreTerm> explain_score(const Signature& a, const Signature& b, MatchMode mode) {
   if (!(a.size > 0.0) || !(b.size > 0.0)) return {};
   const auto tables_a = tables_of(a);
   const auto tables_b = tables_of(b);
@@ -18,7 +18,7 @@ std::vector<ScoreTerm> explain_score(const Signature& a, const Signature& b) {
     BlockSums alone{};
     alone[k] = static_cast<std::uint32_t>(kTableBlocks[k].unit);
     terms.push_back({kTableBlocks[k].name, static_cast<double>(sums[k]) / kTableBlocks[k].unit,
-                     table_distance(alone, tables_a[0], tables_b[0])});
+                     table_distance(alone, tables_a[0], tables_b[0], mode)});
   }
   return terms;
 }

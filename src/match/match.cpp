@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <morsel/error.hpp>
 #include <morsel/match.hpp>
 #include <vector>
 
@@ -45,6 +46,38 @@ struct Pair {
   int source = 0;
 };
 
+std::size_t nearest(const Blob& blob, const std::vector<Blob>& others) {
+  return static_cast<std::size_t>(
+      std::ranges::min_element(
+          others, {}, [&](const Blob& other) { return (other.mean - blob.mean).squaredNorm(); }) -
+      others.begin());
+}
+
+// Each part goes to the nearest of the other shape: a limb that was bent lies beside where it was,
+// and what one posture cuts in two is one part in the other.
+void pair_neighbors(const std::vector<Blob>& target, const std::vector<Blob>& source,
+                    Match& result) {
+  if (target.empty() || source.empty()) return;
+  std::vector<std::vector<double>> overlaps(target.size(), std::vector<double>(source.size()));
+  std::vector<std::vector<char>> chosen(target.size(), std::vector<char>(source.size(), 0));
+  double total = 0.0;
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    for (std::size_t k = 0; k < source.size(); ++k) {
+      total += overlaps[i][k] = overlap({target[i]}, {source[k]});
+    }
+    chosen[i][nearest(target[i], source)] = 1;
+  }
+  for (std::size_t k = 0; k < source.size(); ++k) chosen[nearest(source[k], target)][k] = 1;
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    for (std::size_t k = 0; k < source.size(); ++k) {
+      if (chosen[i][k] == 0) continue;
+      result.matched.push_back(
+          {static_cast<int>(i), static_cast<int>(k), total > 0.0 ? overlaps[i][k] / total : 0.0});
+    }
+  }
+  std::ranges::stable_sort(result.matched, std::ranges::greater{}, &MatchedPart::contribution);
+}
+
 // Pairs of parts in order of the overlap that they make up; each part once.
 void pair_parts(const std::vector<Blob>& target, const std::vector<Blob>& source, Match& result) {
   std::vector<Pair> pairs;
@@ -77,7 +110,11 @@ bool comparable(const Signature& a, const Signature& b) { return (a.size > 0.0) 
 
 }  // namespace
 
-void MatchOptions::check() const {}
+void MatchOptions::check() const {
+  if (method == Method::kPaper && mode == MatchMode::kArticulated) {
+    throw Error(ErrorCode::kUsage, "mode: the paper's score has no articulated mode; use rigid");
+  }
+}
 
 double match_score(const Signature& a, const Signature& b, const MatchOptions& options) {
   options.check();
@@ -85,8 +122,8 @@ double match_score(const Signature& a, const Signature& b, const MatchOptions& o
   if (options.method == Method::kPaper) return paper_score(a, b, options.mirror).score;
   const auto tables_a = tables_of(a);
   const auto tables_b = tables_of(b);
-  const double score = score_of_distance(
-      table_distance(block_sums(tables_a.data(), tables_b.data()), tables_a[0], tables_b[0]));
+  const double score = score_of_distance(table_distance(
+      block_sums(tables_a.data(), tables_b.data()), tables_a[0], tables_b[0], options.mode));
   return options.mirror ? score : score * same_handedness(a, b);
 }
 
@@ -106,7 +143,11 @@ Match match(const Signature& target, const Signature& source, const MatchOptions
   }
   result.target_from_source = transform(target, source, alignment);
   result.mirrored = alignment.target_from_source.determinant() < 0.0;
-  pair_parts(to, moved(from, alignment), result);
+  if (options.mode == MatchMode::kArticulated) {
+    pair_neighbors(to, moved(from, alignment), result);
+  } else {
+    pair_parts(to, moved(from, alignment), result);
+  }
   return result;
 }
 

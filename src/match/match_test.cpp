@@ -132,6 +132,62 @@ TEST(MatchTest, MirroredIsSaidOnlyOfWhatIsClearlySo) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, MatchTest, ::testing::Values(Method::kDefault, Method::kPaper));
 
+// A body with two arms, the second bent up at the elbow by a right angle or straight.
+Signature with_arm(bool bent) {
+  Points points = shapes::joined(shapes::box(3000, {2.0, 2.0, 1.5}, 1),
+                                 shapes::moved(shapes::box(1500, {0.5, 4.0, 0.5}, 2), {0, 3, 0}));
+  points =
+      shapes::joined(points, shapes::moved(shapes::box(1000, {3.0, 0.5, 0.4}, 3), {2.5, 0, 0}));
+  const Points forearm = bent ? shapes::moved(shapes::box(1000, {0.4, 0.5, 3.0}, 4), {4.0, 0, 1.5})
+                              : shapes::moved(shapes::box(1000, {3.0, 0.5, 0.4}, 4), {5.0, 0, 0});
+  return signature_of(shapes::joined(points, forearm));
+}
+
+TEST(MatchTest, ArticulatedForgivesABentArm) {
+  const Signature straight = with_arm(false);
+  const Signature bent = with_arm(true);
+  const MatchOptions articulated{.mode = MatchMode::kArticulated};
+  EXPECT_EQ(match_score(straight, straight, articulated), 1.0);
+  EXPECT_EQ(match_score(straight, bent, articulated), match_score(bent, straight, articulated));
+  EXPECT_GT(match_score(straight, bent, articulated), match_score(straight, bent) + 0.05);
+  double sum = 0.0;
+  double weights = 0.0;
+  for (const ScoreTerm& term : explain_score(straight, bent, MatchMode::kArticulated)) {
+    sum += term.weight * term.distance;
+    weights += term.weight;
+  }
+  EXPECT_NEAR(weights, 1.0, 1e-12);
+  EXPECT_NEAR(std::exp(-sum), match_score(straight, bent, articulated), 1e-12);
+}
+
+TEST(MatchTest, ArticulatedGivesEachPartACounterpart) {
+  const Signature& beast = beast_signature();
+  Signature merged = beast;  // the two lightest parts as one, as another posture may have them
+  SignaturePart last = merged.parts.back();
+  merged.parts.pop_back();
+  SignaturePart& joined = merged.parts.back();
+  const double weight = joined.weight + last.weight;
+  joined.center = (joined.weight / weight) * joined.center + (last.weight / weight) * last.center;
+  joined.weight = weight;
+  const Match found = match(beast, merged, {.mode = MatchMode::kArticulated});
+  EXPECT_TRUE(found.unmatched_target.empty());
+  EXPECT_TRUE(found.unmatched_source.empty());
+  std::vector<int> of_target(beast.parts.size(), 0);
+  std::vector<int> of_source(merged.parts.size(), 0);
+  for (const MatchedPart& pair : found.matched) {
+    ++of_target[pair.target];
+    ++of_source[pair.source];
+  }
+  EXPECT_TRUE(std::ranges::all_of(of_target, [](int times) { return times > 0; }));
+  EXPECT_TRUE(std::ranges::all_of(of_source, [](int times) { return times > 0; }));
+  EXPECT_TRUE(match({}, {}, {.mode = MatchMode::kArticulated}).matched.empty());
+}
+
+TEST(MatchTest, ThePaperHasNoArticulatedMode) {
+  const MatchOptions options{.method = Method::kPaper, .mode = MatchMode::kArticulated};
+  EXPECT_THROW(static_cast<void>(match_score({}, {}, options)), Error);
+}
+
 TEST(MatchTest, SamplingDensityAndNoiseChangeLittle) {
   const Points dense = shapes::dumbbell(20000, 0.4, 7);
   const Signature base = signature_of(dense);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <morsel/match.hpp>
 #include <morsel/signature.hpp>
 
 #include "signature/tables.hpp"
@@ -15,17 +16,19 @@ using BlockSums = std::array<std::uint32_t, kTableBlocks.size()>;
 /// `a` and `b` hold kTableSize values.
 [[nodiscard]] BlockSums block_sums(const std::uint8_t* a, const std::uint8_t* b);
 
-/// The mean of the blocks' distances, each in units of two unrelated shapes; tables of the inside
-/// count by the product of both solidities. Never falls when a sum rises, rounding included: a
-/// lower bound of the sums gives a lower bound of the distance.
+/// The mean of the blocks' distances, each in units of two unrelated shapes, by the weights of the
+/// mode; tables of the inside count by the product of both solidities. Never falls when a sum
+/// rises, rounding included: a lower bound of the sums gives a lower bound of the distance.
 [[nodiscard]] inline double table_distance(const BlockSums& sums, std::uint8_t solidity_a,
-                                           std::uint8_t solidity_b) {
+                                           std::uint8_t solidity_b, MatchMode mode) {
   const double inside = static_cast<double>(solidity_a * solidity_b) / (255.0 * 255.0);
   double total = 0.0;
   double weights = 0.0;
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    const double weight = kTableBlocks[k].source == TableSource::kInside ? inside : 1.0;
-    total += weight * (static_cast<double>(sums[k]) / kTableBlocks[k].unit);
+    const TableBlock& block = kTableBlocks[k];
+    double weight = block.source == TableSource::kInside ? inside : 1.0;
+    if (mode == MatchMode::kArticulated) weight *= block.articulated;
+    total += weight * (static_cast<double>(sums[k]) / block.unit);
     weights += weight;
   }
   return total / weights;

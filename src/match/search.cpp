@@ -87,7 +87,7 @@ struct Query {
 void look_at(const Mapping& file, std::size_t index, const Query& query, BestShapes& best) {
   const Row row = file.row(index);
   const double distance = table_distance(block_sums(query.tables.data(), row.tables()),
-                                         query.tables[0], row.tables()[0]);
+                                         query.tables[0], row.tables()[0], query.options.mode);
   if (!best.may_take(distance)) return;
   double score = score_of_distance(distance);
   if (query.empty != row.is_empty()) {
@@ -124,7 +124,8 @@ void find_bounds(const char* columns, std::size_t rows, const Query& query, Boun
     for (std::size_t i = 0; i < count; ++i) {
       BlockSums sums{};
       for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = apart[k][i];
-      bounds[begin + i] = table_distance(sums, query.tables[0], solidity[begin + i]);
+      bounds[begin + i] =
+          table_distance(sums, query.tables[0], solidity[begin + i], query.options.mode);
     }
   }
 }

@@ -112,6 +112,7 @@ TEST_P(SearchTest, EqualsTheExhaustiveAnswer) {
     for (const bool mirror : {true, false}) {
       const Signature query = k == 1 ? shapes.signatures[5] : random_signature(GetParam(), random);
       expect_exhaustive(block, query, k, {.mirror = mirror});
+      expect_exhaustive(block, query, k, {.mirror = mirror, .mode = MatchMode::kArticulated});
     }
   }
   fs::remove(path_);

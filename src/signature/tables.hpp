@@ -20,16 +20,17 @@ struct TableBlock {
   std::size_t offset = 0;
   std::size_t size = 0;
   TableSource source = TableSource::kSurface;
-  double unit = 1.0;  ///< mean L1 distance of two shapes of the development half, in bytes
+  double unit = 1.0;         ///< mean L1 distance of two shapes of the development half, in bytes
+  double articulated = 1.0;  ///< weight among shapes that bend; 1 for each among rigid ones
 };
 
 /// The first value is the solidity; then the blocks.
 inline constexpr std::array<TableBlock, 5> kTableBlocks{{
-    {"shells", 1, 105, TableSource::kSurface, 916.0},
-    {"facing", 106, 180, TableSource::kSurface, 2810.0},
-    {"pairs", 286, 144, TableSource::kSurface, 937.0},
-    {"thickness", 430, 120, TableSource::kInside, 2234.0},
-    {"centricity", 550, 72, TableSource::kInside, 1156.0},
+    {"shells", 1, 105, TableSource::kSurface, 916.0, 0.5},
+    {"facing", 106, 180, TableSource::kSurface, 2810.0, 1.0},
+    {"pairs", 286, 144, TableSource::kSurface, 937.0, 1.0},
+    {"thickness", 430, 120, TableSource::kInside, 2234.0, 1.0},
+    {"centricity", 550, 72, TableSource::kInside, 1156.0, 2.0},
 }};
 inline constexpr std::size_t kTableSize = kTableBlocks.back().offset + kTableBlocks.back().size;
 

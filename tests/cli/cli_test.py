@@ -93,6 +93,7 @@ class Help(CliTest):
         self.assertEqual(complete("morsel", "search", "--database", "''"), ["shapes.db"])
         self.assertEqual(complete("morsel", "index", "--class", "fo"), ["folder"])
         self.assertEqual(complete("morsel", "matrix", "--no"), ["--no-mirror"])
+        self.assertEqual(complete("morsel", "compare", "--mode", "a"), ["articulated"])
 
 
 class Usage(CliTest):

@@ -319,10 +319,14 @@ class Search(DatabaseTest):
                                   "matched", "unmatched_target", "unmatched_source"}, set(hit))
 
     def test_methods(self):
-        for arguments in (["--method", "paper"], ["--no-mirror"]):
+        for arguments in (["--method", "paper"], ["--no-mirror"], ["--mode", "articulated"]):
             self.assertEqual(len(self.hits("models/ball/0.xyz", *arguments)), 5)
         self.refuse(USAGE, "'best' is not default or paper", "search", "--database", "shapes.db",
                     "a", "--method", "best")
+        self.refuse(USAGE, "'bent' is not rigid or articulated", "search", "--database",
+                    "shapes.db", "a", "--mode", "bent")
+        self.refuse(USAGE, "no articulated mode", "search", "--database", "shapes.db", "a",
+                    "--mode", "articulated", "--method", "paper")
 
     def test_picture(self):
         self.morsel("search", "models/ball/0.xyz", "--picture", "hits.png")
