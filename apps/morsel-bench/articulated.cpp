@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
@@ -130,7 +131,7 @@ std::vector<double> scores(const std::vector<Signature>& queries,
 }
 
 void print(const std::string& title, const Mode& mode, const Retrieval& r, ordered_json& report) {
-  fmt::print("{:<34}{:<12}{:7.3f}{:7.3f}{:7.3f}{:7.3f}\n", title, mode.name, r.nearest,
+  fmt::print("{:<36}{:<12}{:7.3f}{:7.3f}{:7.3f}{:7.3f}\n", title, mode.name, r.nearest,
              r.first_tier, r.second_tier, r.gain);
   ordered_json run = {{"run", title}, {"mode", mode.name}};
   add_measures(r, run);
@@ -163,49 +164,56 @@ void measure_classes(const RunOptions& options, const Shapes& all, ordered_json&
   }
 }
 
-// Copies with bent limbs: which shapes they find, and whether their parts find each other.
-void measure_postures(const RunOptions& options, const Shapes& all, ordered_json& report) {
-  const auto outcomes = run_isolated(all.shapes.size(), options.threads, [&](std::size_t i) {
-    return describe(all.shapes[i], static_cast<int>(i), options);
-  });
-  std::vector<Postures> postures;
+// Which shapes the bent copies of those in `bent` find, and whether their parts find each other.
+void measure_bent(const std::string& title, const std::vector<std::size_t>& bent,
+                  const std::vector<Postures>& postures, const Shapes& all, ordered_json& report) {
   std::vector<Signature> stored;
-  for (const Outcome& outcome : outcomes) {
-    postures.push_back(postures_of(outcome));
-    stored.push_back(postures.back().straight);
-  }
-  std::vector<std::size_t> bent;
+  for (const Postures& shape : postures) stored.push_back(shape.straight);
   std::vector<Signature> queries;
-  for (std::size_t i = 0; i < postures.size(); ++i) {
-    if (postures[i].limbs == 0) continue;
-    bent.push_back(i);
-    queries.push_back(postures[i].bent);
-  }
+  for (const std::size_t i : bent) queries.push_back(postures[i].bent);
   for (const Mode& mode : kModes) {
-    const std::vector<double> all_scores = scores(queries, stored, mode.mode);
-    print(fmt::format("{} bent copies, others of the class", bent.size()), mode,
-          rank(all_scores, all.categories, bent), report);
+    const std::vector<double> found = scores(queries, stored, mode.mode);
+    print(fmt::format("{} {}", bent.size(), title), mode, rank(found, all.categories, bent),
+          report);
     std::size_t first = 0;
     double well = 0.0;
     for (std::size_t q = 0; q < bent.size(); ++q) {
-      const auto row = all_scores.begin() + static_cast<std::ptrdiff_t>(q * stored.size());
+      const auto row = found.begin() + static_cast<std::ptrdiff_t>(q * stored.size());
       const auto best = std::max_element(row, row + static_cast<std::ptrdiff_t>(stored.size()));
       if (static_cast<std::size_t>(best - row) == bent[q]) ++first;
       well += share_well_matched(postures[bent[q]], mode.mode);
     }
-    const auto count = static_cast<double>(bent.size());
-    fmt::print("  {}: the original first {:.3f}; parts that correspond {:.3f} of the volume\n",
-               mode.name, static_cast<double>(first) / count, well / count);
-    report["postures"].push_back({{"mode", mode.name},
+    const auto count = static_cast<double>(std::max<std::size_t>(bent.size(), 1));
+    fmt::print("  original first {:.3f}; {:.3f} of the volume in parts that correspond\n",
+               static_cast<double>(first) / count, well / count);
+    report["postures"].push_back({{"run", title},
+                                  {"mode", mode.name},
                                   {"original_first", static_cast<double>(first) / count},
                                   {"corresponding", well / count}});
   }
 }
 
+void measure_postures(const RunOptions& options, const Shapes& all, ordered_json& report) {
+  const auto outcomes = run_isolated(all.shapes.size(), options.threads, [&](std::size_t i) {
+    return describe(all.shapes[i], static_cast<int>(i), options);
+  });
+  std::vector<Postures> postures;
+  for (const Outcome& outcome : outcomes) postures.push_back(postures_of(outcome));
+  const auto is_bent = [&](std::size_t i) { return postures[i].limbs > 0; };
+  std::vector<std::size_t> every;
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    if (is_bent(i)) every.push_back(i);
+  }
+  std::vector<std::size_t> bending;
+  std::ranges::copy_if(all.bending, std::back_inserter(bending), is_bent);
+  measure_bent("bent copies of bending classes", bending, postures, all, report);
+  measure_bent("bent copies of all classes", every, postures, all, report);
+}
+
 void run(const RunOptions& options) {
   const Shapes all = list(options);
   ordered_json report = report_head("articulated", options);
-  fmt::print("{:<46}{:>7}{:>7}{:>7}{:>7}\n", "", "NN", "FT", "ST", "DCG");
+  fmt::print("{:<48}{:>7}{:>7}{:>7}{:>7}\n", "", "NN", "FT", "ST", "DCG");
   measure_classes(options, all, report);
   measure_postures(options, all, report);
   if (!options.json.empty()) write_json(options.json, report);
