@@ -104,7 +104,7 @@ void add_match_options(CLI::App& app, MatchOptions& options) {
       })
       ->group("Score");
   add(app, "--mode", "rigid|articulated",
-      "What is one shape: what can be turned onto each other, or also bent [rigid]",
+      "Whether a shape that was bent is another one, or the same [rigid]",
       [&options](const std::string& name, const std::string& text) {
         if (text != "rigid" && text != "articulated") {
           throw CLI::ValidationError(name, fmt::format("'{}' is not rigid or articulated", text));
