@@ -26,6 +26,15 @@ Eigen::Matrix3d principal_axes(const std::vector<Blob>& blobs) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors();
 }
 
+// Clamped values, or whoever wrote the signature, may have left what is no covariance. What the
+// smoothing makes up for stays as it is.
+Eigen::Matrix3d nearest_covariance(const Eigen::Matrix3d& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
+  if (solver.eigenvalues()[0] > -0.5 * kSmoothing * kSmoothing) return matrix;
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
 // Rotations spread evenly over all of them.
 // Source: M. Alexa, "Super-Fibonacci Spirals: Fast, Low-Discrepancy Sampling of SO(3)", CVPR 2022.
 std::vector<Eigen::Matrix3d> spread_rotations() {
@@ -93,7 +102,9 @@ std::vector<Blob> blobs_of(const Signature& signature) {
     Blob blob;
     blob.weight = part.weight;
     blob.mean = {part.center.x, part.center.y, part.center.z};
-    blob.covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+    Eigen::Matrix3d covariance;
+    covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+    blob.covariance = nearest_covariance(covariance);
     blobs.push_back(blob);
   }
   return blobs;

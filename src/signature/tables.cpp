@@ -312,7 +312,8 @@ std::vector<double> find_centricity(const DelaunayComplex& complex, const Solid&
     }
     mean += shares[k] * centricity[k];
   }
-  for (double& value : centricity) value /= mean;
+  // A single landmark is as far from the others as they are from it.
+  for (double& value : centricity) value = mean > 0.0 ? value / mean : 1.0;
   return centricity;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace morsel {
@@ -13,10 +14,11 @@ struct Tent {
   std::array<double, 2> share{};  ///< of this bin and the next
 };
 
-/// Where `position` in [0, 1] falls on an axis of `count` >= 2 bins; clamped to its ends.
+/// Where `position` in [0, 1] falls on an axis of `count` >= 2 bins; clamped to its ends. What is
+/// no number, such as a place relative to a shape without extent, is at its beginning.
 [[nodiscard]] inline Tent tent(double position, std::size_t count) {
-  const double at =
-      std::clamp(position * static_cast<double>(count) - 0.5, 0.0, static_cast<double>(count - 1));
+  const double at = std::fmin(std::fmax(position * static_cast<double>(count) - 0.5, 0.0),
+                              static_cast<double>(count - 1));
   const std::size_t bin = std::min(static_cast<std::size_t>(at), count - 2);
   const double high = at - static_cast<double>(bin);
   return {bin, {1.0 - high, high}};
