@@ -1,6 +1,6 @@
 # The two commands of the README are `make demo` and `make test`; each installs what it needs.
 .DEFAULT_GOAL := help
-.PHONY: help demo test sanitize bench lint docs format install clean
+.PHONY: help demo test sanitize fuzz bench lint docs format install package clean
 export INPUT ARGS
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
@@ -13,11 +13,11 @@ demo:  ## Segment example scans, or INPUT=scan.ply [ARGS="--parts 5"]; results i
 test:  ## Build, run every test and the quick lint checks
 	@scripts/test.sh
 
-sanitize:  ## Run the tests under address and undefined-behaviour sanitizers
-	@scripts/install-dependencies.sh --test
-	@cmake --preset asan-ubsan
-	@cmake --build --preset asan-ubsan
-	@ctest --preset asan-ubsan
+sanitize:  ## Run the tests under sanitizers: ARGS=asan-ubsan or ARGS=tsan for one of the two
+	@scripts/sanitize.sh $(ARGS)
+
+fuzz:  ## Fuzz what reads files and requests: ARGS="--seconds 600 ply gltf"
+	@scripts/fuzz.sh $(ARGS)
 
 bench:  ## Run the benchmarks: ARGS="segmentation --help"
 	@scripts/install-dependencies.sh
@@ -32,7 +32,7 @@ format:  ## Format all C++ and TypeScript files in place
 	@scripts/install-dependencies.sh --lint
 	@scripts/format.sh
 
-docs:  ## Build the API reference: build/docs/html/index.html
+docs:  ## Build the documentation: build/docs/site/index.html
 	@scripts/docs.sh
 
 install:  ## Build and install the program and the library to PREFIX (default /usr/local)
@@ -40,6 +40,9 @@ install:  ## Build and install the program and the library to PREFIX (default /u
 	@cmake --preset release
 	@cmake --build --preset release --target morsel morsel_cli
 	@cmake --install build/release --prefix "$(or $(PREFIX),/usr/local)"
+
+package:  ## Build a Debian package: build/package/morsel_*.deb
+	@scripts/package.sh
 
 clean:  ## Remove everything that was built or written
 	@rm -rf build out

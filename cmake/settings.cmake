@@ -7,16 +7,23 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)  # no program holds the folder that it was built in
 
 option(MORSEL_WARNINGS_AS_ERRORS "Fail on compiler warnings" OFF)
 set(MORSEL_SANITIZE "" CACHE STRING "Sanitizers for every target, e.g. address,undefined")
+# Seconds that a test of many programs may take.
+set(MORSEL_LONG_TEST 1800)
+if(MORSEL_SANITIZE)
+  set(MORSEL_LONG_TEST 7200)
+endif()
 
 add_library(morsel_settings INTERFACE)
-# -Wno-restrict: GCC 12 warns falsely about std::string (GCC bug 105651).
+# -Wno-restrict: GCC 12 warns falsely about std::string (GCC bug 105651); clang does not know it.
 # -ffp-contract=off: the rounding error bounds of the geometric filters, and equal bytes on every
 # machine, rest on each operation being rounded once.
 target_compile_options(morsel_settings INTERFACE -Wall -Wextra -Wshadow -Wconversion
-                       -Wno-sign-conversion -Wno-restrict -ffp-contract=off
+                       -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+                       -ffp-contract=off
                        $<$<BOOL:${MORSEL_WARNINGS_AS_ERRORS}>:-Werror>)
 if(MORSEL_SANITIZE)
   target_compile_options(morsel_settings INTERFACE -fsanitize=${MORSEL_SANITIZE}

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 mode=(-i)
 [[ ${1:-} == --check ]] && mode=(--dry-run -Werror)
 folders=()
-for folder in include src apps tests python; do
+for folder in include src apps fuzz tests python; do
   [[ -d $folder ]] && folders+=("$folder")
 done
 find "${folders[@]}" -type f \( -name '*.cpp' -o -name '*.hpp' \) -print0 |

@@ -4,6 +4,8 @@
 #   scripts/install-dependencies.sh          what building, the tests and the demo need
 #   scripts/install-dependencies.sh --lint   also what `make lint` needs
 #   scripts/install-dependencies.sh --python also what the Python package needs
+#   scripts/install-dependencies.sh --docs   also what `make docs` needs
+#   scripts/install-dependencies.sh --fuzz   also what `make fuzz` needs
 #   scripts/install-dependencies.sh --test   also what `make test` needs
 #   scripts/install-dependencies.sh --dev    also what every other target needs
 set -euo pipefail
@@ -17,17 +19,21 @@ packages=(
 # Node.js builds the viewer; one that did not come from Debian brings its npm along.
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then packages+=(nodejs npm); fi
 lint=(clang-format clang-tidy-16 shellcheck) # 14, the default, cannot parse <ranges>
+docs=(doxygen mkdocs)
+fuzz=(clang-16 libclang-rt-16-dev llvm-16)
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest python3-jsonschema mypy
-  python3-matplotlib python3-plotly)
+  python3-matplotlib python3-plotly "${docs[@]}" wrk)
 case "${1:-}" in
   "") ;;
   --lint) packages+=("${lint[@]}") ;;
   --python) packages+=("${python[@]}") ;;
+  --docs) packages+=("${docs[@]}") ;;
+  --fuzz) packages+=("${fuzz[@]}") ;;
   --test) packages+=("${test[@]}") ;;
-  --dev) packages+=("${test[@]}" doxygen) ;;
+  --dev) packages+=("${test[@]}" "${fuzz[@]}") ;;
   *)
-    echo "usage: $0 [--lint|--python|--test|--dev]" >&2
+    echo "usage: $0 [--lint|--python|--docs|--fuzz|--test|--dev]" >&2
     exit 2
     ;;
 esac

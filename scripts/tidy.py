@@ -17,7 +17,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ("src", "apps", "tests", "python")
+FOLDERS = ("src", "apps", "fuzz", "tests", "python")
 CACHE = ROOT / "build" / "tidy-passed"
 
 

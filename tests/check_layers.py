@@ -2,8 +2,8 @@
 """Checks the rules that the compiler does not: which folder may use which, and what must be there.
 
 - src/<module> includes "module/…" only of modules named at or before it in MORSEL_MODULES.
-- Only src/delaunay/triangulate.cpp includes CGAL's Delaunay triangulation, and the benchmark that
-  times CGAL alone beside it.
+- Only src/delaunay/triangulate.cpp includes CGAL's Delaunay triangulation, the test that compares it
+  with exact numbers, and the benchmark that times CGAL alone beside it.
 - python/src includes the standard library, <morsel/…>, pybind11 and its own headers alone.
 - Public headers include the standard library and <morsel/…> alone, and each begins #pragma once.
 - Every module has a test beside its sources.
@@ -22,6 +22,7 @@ STANDARD = re.compile(r"[a-z_0-9]+$")  # <vector>, <cstdint>; never <x/y> or <x.
 TRIANGULATION = re.compile(r"CGAL/(Delaunay_triangulation|Triangulation|Regular_triangulation)_3\.h")
 TRIANGULATING = (
     pathlib.PurePath("src/delaunay/triangulate.cpp"),
+    pathlib.PurePath("src/delaunay/exact_test.cpp"),
     pathlib.PurePath("apps/morsel-bench/time.cpp"),
 )
 OUTSIDE_DATA = re.compile("/work/" + r"shared|\bshared/" + "data")
@@ -64,7 +65,7 @@ def check_modules_are_listed(root, order):
 
 
 def check_triangulation(root):
-    for folder in ("src", "apps", "tests"):
+    for folder in ("src", "apps", "fuzz", "tests"):
         for path in sources(root / folder):
             if path.relative_to(root) in TRIANGULATING:
                 continue
