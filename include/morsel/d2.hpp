@@ -9,6 +9,7 @@
 
 namespace morsel {
 
+/// How the shape distribution is taken.
 struct D2Options {
   std::size_t bins = 64;       ///< 2 … 4096, up to three mean distances
   std::size_t pairs = 200000;  ///< random pairs of points, >= 1

@@ -39,6 +39,7 @@ struct ShapeData {
   Sketch sketch;  ///< what pictures are drawn from: draw_thumbnail(), render_parts()
 };
 
+/// A shape as it is in the database.
 struct StoredShape {
   ShapeInfo info;
   ShapeData data;
@@ -93,12 +94,15 @@ enum class Access {
 /// locked for a minute. An older version's database is brought up to date when opened for writing.
 class Database {
  public:
+  /// Throws as said above; Access::kRead and kWrite also when there is no such file.
   [[nodiscard]] static Database open(const std::filesystem::path& file, Access access);
   Database(Database&&) noexcept;
   Database& operator=(Database&&) noexcept;
   ~Database();
 
+  /// As it was opened.
   [[nodiscard]] const std::filesystem::path& file() const;
+  /// Number of shapes, that is, of names.
   [[nodiscard]] std::size_t size() const;
 
   /// All shapes by name, as of one state of the database: the same object until it changes.
@@ -159,6 +163,7 @@ struct ShapeFile {
   std::vector<std::string> tags;          ///< added to those it has
 };
 
+/// How files become shapes of the database.
 struct IndexOptions {
   SegmentOptions segment;  ///< `threads`: files that are worked on at once, 0: one a core
   SampleOptions sample;    ///< of meshes
@@ -170,6 +175,7 @@ struct IndexFailure {
   std::string reason;
 };
 
+/// What index_files() did.
 struct IndexReport {
   std::size_t added = 0;
   std::size_t replaced = 0;

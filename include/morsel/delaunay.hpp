@@ -33,9 +33,11 @@ struct DelaunayComplex {
   std::vector<double> radii;                            ///< (c) radii of the Delaunay balls
   int dimension = -1;  ///< of the points' affine hull, -1 (no point) … 3; below 3 there is no cell
 
+  /// Number of finite cells.
   [[nodiscard]] std::size_t cell_count() const { return cells.size(); }
 };
 
+/// How the work is done; what comes of it is the same.
 struct TriangulateOptions {
   int threads = 0;  ///< 0: all cores. The result does not depend on it.
 };
@@ -58,6 +60,7 @@ struct VertexCells {
   std::vector<std::uint32_t> offsets;  ///< (v + 1)
   std::vector<std::uint32_t> cells;    ///< (4c), ascending for each vertex
 
+  /// Cells that meet at a vertex, ascending.
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t vertex) const {
     return std::span(cells).subspan(offsets[vertex], offsets[vertex + 1] - offsets[vertex]);
   }

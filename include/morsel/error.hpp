@@ -21,8 +21,10 @@ enum class ErrorCode {
 /// shape) are values in the results, never an Error.
 class Error : public std::runtime_error {
  public:
+  /// `message` is one line without a full stop at its end.
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
 
+  /// What kind of contract was broken.
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
 
  private:

@@ -11,6 +11,7 @@
 
 namespace morsel {
 
+/// What the page says and shows at first.
 struct HtmlOptions {
   std::string name = {};  ///< what the page calls the shape, such as a file name; any bytes
   std::optional<double> merge_ratio =

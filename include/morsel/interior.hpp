@@ -20,6 +20,7 @@ enum class CellSide : std::uint8_t {
   kInner,  ///< inside the shape
 };
 
+/// How inside and outside are told apart.
 struct InteriorOptions {
   Method method = Method::kDefault;
   /// Paper: ρ, a ball is big when its radius exceeds ρ·λ of any of its corners; > 0.

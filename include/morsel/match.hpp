@@ -19,6 +19,7 @@ enum class MatchMode : std::uint8_t {
   kArticulated,  ///< also bent at its joints: only what bending keeps, or nearly keeps, is compared
 };
 
+/// How two shapes are compared.
 struct MatchOptions {
   Method method = Method::kDefault;  ///< the paper's score over weighted points, or the default one
   bool mirror = true;                ///< a shape and its mirror image count as the same

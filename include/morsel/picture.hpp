@@ -19,6 +19,7 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
+/// What a picture looks like.
 struct PictureOptions {
   std::size_t width = 800;  ///< pixels of the whole picture, 64 … 8192
   std::size_t views = 4;    ///< views of the object, 1 … 4: three quarters, other side, top, back

@@ -14,6 +14,7 @@ class Progress {
   using Callback = std::function<void(std::string_view stage, double fraction)>;
 
   Progress() = default;
+  /// Reports to `callback`, on whatever thread the work runs.
   explicit Progress(Callback callback) : callback_(std::move(callback)) {}
   /// For one piece of the work that `whole` is about: reports nothing, is cancelled with it.
   explicit Progress(const Progress* whole) : whole_(whole) {}
@@ -21,6 +22,7 @@ class Progress {
   /// Asks the work to stop: it then throws Error(kCancelled). Safe from any thread and from a
   /// signal handler.
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  /// Whether it was asked to stop.
   [[nodiscard]] bool cancelled() const noexcept {
     return cancelled_.load(std::memory_order_relaxed) || (whole_ != nullptr && whole_->cancelled());
   }

@@ -57,6 +57,7 @@ class SearchBlock {
   SearchBlock& operator=(SearchBlock&&) noexcept;
   ~SearchBlock();
 
+  /// Number of shapes.
   [[nodiscard]] std::size_t size() const;
   /// Valid as long as the block. Throws Error(kInput) when the file was damaged there.
   [[nodiscard]] std::string_view name(std::size_t index) const;

@@ -23,6 +23,7 @@ struct Basins {
   std::size_t stray_cells = 0;  ///< inner cells from which no inner maximum is reached; they joined
                                 ///< the basin beside them
 
+  /// Number of basins.
   [[nodiscard]] std::size_t count() const { return maximum.size(); }
 };
 
@@ -38,6 +39,7 @@ struct Moments {
   Vec3 first;                      ///< ∫ x dV
   std::array<double, 6> second{};  ///< ∫ x xᵀ dV about the origin: xx, xy, xz, yy, yz, zz
 
+  /// Moments of the two together.
   Moments& operator+=(const Moments& other);
 };
 
