@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Builds the Debian package of the program, its viewer, the library and its headers. The same sources
+# give the same bytes: times in it are those of the last commit, or SOURCE_DATE_EPOCH.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install-dependencies.sh
+cmake --preset release
+cmake --build --preset release --target morsel morsel_cli
+if [[ -z ${SOURCE_DATE_EPOCH-} ]]; then
+  SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+  export SOURCE_DATE_EPOCH
+fi
+cpack --config build/release/CPackConfig.cmake -B build/package
+ls -l build/package/*.deb
