@@ -19,4 +19,5 @@ step "configure" cmake --preset release
 step "build" cmake --build --preset release
 step "test" ctest --preset release
 step "lint" scripts/lint.sh --quick
+step "documentation" scripts/docs.sh
 echo "All passed in $((SECONDS / 60)) min $((SECONDS % 60)) s."
