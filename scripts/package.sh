@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the Debian package of the program, its viewer, the library and its headers. The same sources
-# give the same bytes: times in it are those of the last commit, or SOURCE_DATE_EPOCH.
+# Builds the Debian package of the program, its viewer, the library and its headers. Times in it are
+# those of the last commit, or SOURCE_DATE_EPOCH, so that the same sources give the same bytes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
