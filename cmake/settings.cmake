@@ -53,6 +53,7 @@ function(morsel_add_module name)
     target_link_libraries(${name}_test PRIVATE morsel morsel_settings ${ARG_LIBRARIES}
                           GTest::gtest_main)
     include(GoogleTest)
-    gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60)
+    # Those for a database server share one: tests/CMakeLists.txt.
+    gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 TEST_FILTER "-Server/*")
   endif()
 endfunction()

@@ -13,7 +13,7 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache pkg-config python3
   libcgal-dev libeigen3-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev
-  liblzf-dev libnanoflann-dev zlib1g-dev libsqlite3-dev libsqlitecpp-dev libxxhash-dev
+  liblzf-dev libnanoflann-dev zlib1g-dev libsqlite3-dev libsqlitecpp-dev libpq-dev libxxhash-dev
   libcpp-httplib-dev libgtest-dev
 )
 # Node.js builds the viewer; one that did not come from Debian brings its npm along.
@@ -23,7 +23,7 @@ docs=(doxygen mkdocs)
 fuzz=(clang-16 libclang-rt-16-dev llvm-16)
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest python3-jsonschema mypy
-  python3-matplotlib python3-plotly "${docs[@]}" wrk)
+  python3-matplotlib python3-plotly "${docs[@]}" wrk postgresql slurm-wlm munge)
 case "${1:-}" in
   "") ;;
   --lint) packages+=("${lint[@]}") ;;

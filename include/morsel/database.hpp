@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <istream>
+#include <map>
 #include <memory>
 #include <morsel/io.hpp>
 #include <morsel/match.hpp>
@@ -82,25 +83,30 @@ enum class Access {
   kCreate,  ///< one that is made if it is not there
 };
 
-/// Shapes in one file (SQLite, write-ahead log). Beside it `FILE-….block` may appear, a copy of the
-/// signatures laid out for searching: it is made when a search finds none of the current state, and
-/// may be deleted at any time.
+/// Shapes in one file (SQLite, write-ahead log) or, for many machines, on a PostgreSQL server.
+///
+/// Searches read a copy of all signatures that is laid out for them: `FILE-….block` beside the
+/// file, or in the folder `morsel` of the user's cache. It is made when a search finds none of the
+/// current state, from that of an earlier state and what changed since, and may be deleted at any
+/// time.
 ///
 /// Every change is one transaction: it is there as a whole, on disk, when the function returns, and
 /// not at all otherwise. Several processes and threads may read and write at once.
 ///
-/// All functions throw Error(kInput) naming the file when it is not a database of morsel, was
-/// written by a newer version or is damaged; Error(kOutput) when it cannot be written or stays
-/// locked for a minute. An older version's database is brought up to date when opened for writing.
+/// All functions throw Error(kInput) naming the database when it is not one of morsel, was written
+/// by a newer version or is damaged; Error(kOutput) when it cannot be written, stays locked for a
+/// minute or a server that went away does not come back within half a minute. An older version's
+/// database is brought up to date when opened for writing.
 class Database {
  public:
-  /// Throws as said above; Access::kRead and kWrite also when there is no such file.
-  [[nodiscard]] static Database open(const std::filesystem::path& file, Access access);
+  /// Throws as said above; Access::kRead and kWrite also when there is no such database.
+  /// `place`: a file, or an address that begins with postgresql://, as libpq takes it.
+  [[nodiscard]] static Database open(const std::filesystem::path& place, Access access);
   Database(Database&&) noexcept;
   Database& operator=(Database&&) noexcept;
   ~Database();
 
-  /// As it was opened.
+  /// The file, or the address without a password.
   [[nodiscard]] const std::filesystem::path& file() const;
   /// Number of shapes, that is, of names.
   [[nodiscard]] std::size_t size() const;
@@ -125,8 +131,14 @@ class Database {
   /// Throws Error(kInput) when `from` is missing or `to` is taken.
   void rename(const std::string& from, const std::string& to);
 
+  /// Remembers that a file could not be stored, and why, until a shape of that name is stored.
+  void put_failure(const std::string& name, const std::string& reason);
+  /// By name: the reasons.
+  [[nodiscard]] std::map<std::string, std::string> failures() const;
+
   /// The `top` shapes of the highest scores, best first, equal ones by name: exactly what scoring
-  /// every shape would give. After a change the first search copies all signatures, O(shapes).
+  /// every shape would give. The first search after a change brings the copy of the signatures up
+  /// to date: O(shapes) on the disk, O(changes) from a server.
   [[nodiscard]] std::vector<LookAlike> search(const Signature& query, std::size_t top,
                                               const MatchOptions& options = {}) const;
   /// Cost: O(shapes²) scores on `threads` threads (0: all cores).
@@ -145,9 +157,13 @@ class Database {
   /// Throws Error(kInput) that names the line and what is wrong with it.
   std::size_t import_lines(std::istream& stream, const std::string& name);
 
-  /// Reads every byte: SQLite's own check, links between tables, and that each row has its checksum
-  /// and can be decoded. One sentence for each thing found wrong, at most 100.
+  /// Reads every byte: the database's own check, links between tables, and that each row has its
+  /// checksum and can be decoded. One sentence for each thing found wrong, at most 100.
   [[nodiscard]] std::vector<std::string> check(const Progress* progress = nullptr) const;
+  /// Drops the rows that are damaged, and shapes whose signature is, so that all others can be used
+  /// again. One sentence for each shape or signature dropped: index these again. All or nothing;
+  /// throws Error(kInput) when the file is damaged between the rows: import an export then.
+  std::vector<std::string> repair();
 
  private:
   struct State;
@@ -185,9 +201,10 @@ struct IndexReport {
 };
 
 /// Segments files and stores them, several at once, each in a transaction of its own. A file whose
-/// content is stored already is not segmented again. A file that fails does not stop the others.
-/// Progress: the share of the files that are done. When cancelled, what is stored stays.
-/// Throws Error(kUsage), Error(kCancelled), and what Database::put throws.
+/// content is stored already is not segmented again. A file that fails does not stop the others;
+/// the database remembers it (failures()) until it succeeds. Progress: the share of the files that
+/// are done. When cancelled, what is stored stays. Throws Error(kUsage), Error(kCancelled), and
+/// what Database::put throws.
 [[nodiscard]] IndexReport index_files(Database& database, std::span<const ShapeFile> files,
                                       const IndexOptions& options = {},
                                       const Progress* progress = nullptr);

@@ -1,4 +1,3 @@
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
 #include <morsel/database.hpp>
@@ -12,10 +11,11 @@
 namespace morsel::store {
 namespace {
 
-class CheckTest : public DatabaseTest {
+class CheckTest : public EachDatabaseTest {
  protected:
   void SetUp() override {
-    DatabaseTest::SetUp();
+    EachDatabaseTest::SetUp();
+    if (IsSkipped()) return;
     Database database = create();
     const ShapeData first = dumbbell_data();
     for (std::uint64_t i = 0; i < 8; ++i) {
@@ -23,47 +23,76 @@ class CheckTest : public DatabaseTest {
     }
   }
 
-  [[nodiscard]] std::vector<std::string> findings() const {
-    return Database::open(file_, Access::kRead).check();
-  }
+  [[nodiscard]] std::vector<std::string> findings() const { return open(Access::kRead).check(); }
 
-  void damage(const std::string& statement) const {
-    SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec(statement);
+  [[nodiscard]] std::string id_of(const std::string& name) const {
+    return std::to_string(integer("SELECT signature FROM shapes WHERE name = '" + name + "'"));
   }
 };
 
-TEST_F(CheckTest, NothingIsWrongWithAGoodOne) { EXPECT_EQ(findings(), std::vector<std::string>{}); }
+MORSEL_FOR_EACH_DATABASE(CheckTest);
 
-TEST_F(CheckTest, ChangedRowsAreNamed) {
-  damage("UPDATE shapes SET class = 'd' WHERE name = 'shape 3'");
+// Of the bytes of a file.
+using CheckFileTest = CheckTest;
+INSTANTIATE_TEST_SUITE_P(File, CheckFileTest, ::testing::Values("file"));
+
+TEST_P(CheckTest, NothingIsWrongWithAGoodOne) { EXPECT_EQ(findings(), std::vector<std::string>{}); }
+
+TEST_P(CheckTest, ChangedRowsAreNamed) {
+  run("UPDATE shapes SET class = 'd' WHERE name = 'shape 3'");
   ASSERT_EQ(findings().size(), 1U);
   EXPECT_NE(findings()[0].find("'shape 3'"), std::string::npos) << findings()[0];
-  message_of(ErrorCode::kInput, [&] { (void)Database::open(file_, Access::kRead).get("shape 3"); });
+  message_of(ErrorCode::kInput, [&] { (void)open(Access::kRead).get("shape 3"); });
 }
 
-TEST_F(CheckTest, EachColumnOfASignatureCounts) {
-  for (const char* change :
-       {"options = 'x'", "points = 3", "signature = x'00'", "sketch = x'01'"}) {
+TEST_P(CheckTest, EachColumnOfASignatureCounts) {
+  for (const std::string change :
+       {"options = 'x'", "points = 3", "signature = sketch", "sketch = signature"}) {
     SetUp();
-    damage(std::string("UPDATE signatures SET ") + change + " WHERE id = 2");
+    const std::string id = id_of("shape 1");
+    run("UPDATE signatures SET " + change + " WHERE id = " + id);
     ASSERT_EQ(findings().size(), 1U) << change;
-    EXPECT_NE(findings()[0].find("signature 2"), std::string::npos) << findings()[0];
+    EXPECT_NE(findings()[0].find("signature " + id), std::string::npos) << findings()[0];
   }
 }
 
-TEST_F(CheckTest, LinksAreFollowed) {
-  damage("PRAGMA foreign_keys = OFF; DELETE FROM signatures WHERE id = 1");
+TEST_P(CheckTest, LinksAreFollowed) {
+  run(std::string(on_server() ? "ALTER TABLE shapes DROP CONSTRAINT shapes_signature_fkey;"
+                              : "PRAGMA foreign_keys = OFF;") +
+      "DELETE FROM signatures WHERE id = " + id_of("shape 0"));
   ASSERT_EQ(findings().size(), 1U);
   EXPECT_NE(findings()[0].find("its signature is missing"), std::string::npos);
   SetUp();
-  damage("DELETE FROM shapes WHERE id = 1");
+  run("DELETE FROM shapes WHERE name = 'shape 0'");
   ASSERT_EQ(findings().size(), 1U);
   EXPECT_NE(findings()[0].find("belongs to no shape"), std::string::npos);
 }
 
+TEST_P(CheckTest, AnotherStateThanItSays) {
+  run("UPDATE state SET digest = 7");
+  ASSERT_EQ(findings().size(), 1U);
+  EXPECT_NE(findings()[0].find("holds other shapes than it says"), std::string::npos);
+  (void)create().repair();
+  EXPECT_EQ(findings(), std::vector<std::string>{});
+}
+
+TEST_P(CheckTest, RepairKeepsWhatIsGood) {
+  const std::string id = id_of("shape 1");
+  run("UPDATE shapes SET class = 'd' WHERE name = 'shape 3'");
+  run("UPDATE signatures SET points = 3 WHERE id = " + id);
+  const std::vector<std::string> dropped = create().repair();
+  ASSERT_EQ(dropped.size(), 3U);
+  EXPECT_NE(dropped[0].find("'shape 3'"), std::string::npos) << dropped[0];
+  EXPECT_NE(dropped[1].find("'shape 1': its signature is damaged"), std::string::npos);
+  EXPECT_NE(dropped[2].find("signature " + id), std::string::npos) << dropped[2];
+  EXPECT_EQ(findings(), std::vector<std::string>{});
+  EXPECT_EQ(create().size(), 6U);
+  EXPECT_EQ(create().repair(), std::vector<std::string>{});
+}
+
 // A bit that flips anywhere is found, or is in bytes that SQLite does not use: then every shape is
 // still what it was. Nothing crashes.
-TEST_F(CheckTest, FlippedBits) {
+TEST_P(CheckFileTest, FlippedBits) {
   const std::string good = content(file_);
   const Signature query = dumbbell_data().signature;
   std::vector<std::string> expected;
@@ -99,7 +128,7 @@ TEST_F(CheckTest, FlippedBits) {
   EXPECT_GT(found, kFlips / 2);
 }
 
-TEST_F(CheckTest, Truncations) {
+TEST_P(CheckFileTest, Truncations) {
   const std::string good = content(file_);
   for (const double share : {0.01, 0.3, 0.7, 0.99}) {
     write(file_,

@@ -18,12 +18,13 @@
 namespace morsel {
 namespace {
 
+using store::Connection;
 using store::ShapeRow;
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& name,
+[[noreturn]] void fail(const Connection& connection, const std::string& name,
                        const std::string& reason) {
   throw Error(ErrorCode::kInput,
-              fmt::format("{}: {} {}", file.string(), io::in_quotes(name), reason));
+              fmt::format("{}: {} {}", connection.name(), io::in_quotes(name), reason));
 }
 
 bool passes(const ShapeInfo& info, const ShapeFilter& filter) {
@@ -32,10 +33,9 @@ bool passes(const ShapeInfo& info, const ShapeFilter& filter) {
          std::find(info.tags.begin(), info.tags.end(), *filter.tag) != info.tags.end();
 }
 
-ShapeRow existing_shape(SQLite::Database& connection, const std::string& name,
-                        const std::filesystem::path& file) {
-  std::optional<ShapeRow> row = store::find_shape(connection, name, file);
-  if (!row) store::throw_missing(name, file);
+ShapeRow existing_shape(Connection& connection, const std::string& name) {
+  std::optional<ShapeRow> row = store::find_shape(connection, name);
+  if (!row) store::throw_missing(name, connection.name());
   return *std::move(row);
 }
 
@@ -46,29 +46,26 @@ Database::Database(Database&&) noexcept = default;
 Database& Database::operator=(Database&&) noexcept = default;
 Database::~Database() = default;
 
-Database Database::open(const std::filesystem::path& file, Access access) {
-  return Database(std::unique_ptr<State>(new State{file, store::connect(file, access)}));
+Database Database::open(const std::filesystem::path& place, Access access) {
+  return Database(std::unique_ptr<State>(new State{store::connect(place, access)}));
 }
 
 const std::filesystem::path& Database::file() const { return state_->file; }
 
 std::size_t Database::size() const {
-  return state_->exclusively([&] {
-    const auto count = state_->connection.execAndGet("SELECT count(*) FROM shapes").getInt64();
-    return static_cast<std::size_t>(count);
+  return state_->exclusively([](Connection& connection) {
+    return static_cast<std::size_t>(store::state_mark(connection).shapes);
   });
 }
 
 std::shared_ptr<const std::vector<ShapeInfo>> Database::shapes() const {
-  return state_->look([&] {
-    const std::int64_t token = store::state_token(state_->connection);
-    if (state_->shapes && state_->shapes_token == token) return state_->shapes;
+  return state_->look([&](Connection& connection) {
+    const store::StateMark mark = store::state_mark(connection);
+    if (state_->shapes && state_->shapes_mark == mark) return state_->shapes;
     auto infos = std::make_shared<std::vector<ShapeInfo>>();
-    for (ShapeRow& row : store::all_shapes(state_->connection, state_->file)) {
-      infos->push_back(std::move(row.info));
-    }
+    for (ShapeRow& row : store::all_shapes(connection)) infos->push_back(std::move(row.info));
     state_->shapes = std::move(infos);
-    state_->shapes_token = token;
+    state_->shapes_mark = mark;
     return state_->shapes;
   });
 }
@@ -82,66 +79,83 @@ std::vector<ShapeInfo> Database::list(const ShapeFilter& filter) const {
 }
 
 std::optional<ShapeInfo> Database::find(const std::string& name) const {
-  return state_->exclusively([&]() -> std::optional<ShapeInfo> {
-    std::optional<ShapeRow> row = store::find_shape(state_->connection, name, state_->file);
+  return state_->exclusively([&](Connection& connection) -> std::optional<ShapeInfo> {
+    std::optional<ShapeRow> row = store::find_shape(connection, name);
     if (!row) return std::nullopt;
     return std::move(row->info);
   });
 }
 
 StoredShape Database::get(const std::string& name) const {
-  return state_->look([&] {
-    ShapeRow row = existing_shape(state_->connection, name, state_->file);
-    SQLite::Statement statement(
-        state_->connection,
-        fmt::format("SELECT {} FROM signatures WHERE id = ?", store::kDataColumns));
-    statement.bind(1, row.signature);
-    if (!statement.executeStep()) fail(state_->file, name, "has no signature; run check");
-    return StoredShape{std::move(row.info), store::read_data(statement, state_->file)};
+  return state_->look([&](Connection& connection) {
+    ShapeRow row = existing_shape(connection, name);
+    const auto rows = connection.query(
+        fmt::format("SELECT {} FROM signatures WHERE id = ?1", store::kDataColumns),
+        {row.signature});
+    if (!rows->next()) fail(connection, name, "has no signature; run check");
+    return StoredShape{std::move(row.info), store::read_data(*rows, connection.name())};
   });
 }
 
 Change Database::put(const ShapeInfo& info, const ShapeData& data) {
   const ShapeInfo proper = store::checked(info);
-  return state_->change([&] {
-    const std::int64_t signature = store::insert_data(state_->connection, data);
-    return store::write_shape(state_->connection, proper, signature, state_->file);
+  return state_->change([&](Connection& connection) {
+    return store::write_shape(connection, proper, store::insert_data(connection, data));
   });
 }
 
 std::optional<Change> Database::put_known(const ShapeInfo& info, const std::string& content) {
   const ShapeInfo proper = store::checked(info);
   const bool known = state_->exclusively(
-      [&] { return store::find_data(state_->connection, content).has_value(); });
+      [&](Connection& connection) { return store::find_data(connection, content).has_value(); });
   if (!known) return std::nullopt;
-  return state_->change([&]() -> std::optional<Change> {
-    const auto signature = store::find_data(state_->connection, content);
+  return state_->change([&](Connection& connection) -> std::optional<Change> {
+    const auto signature = store::find_data(connection, content);
     if (!signature) return std::nullopt;  // removed meanwhile
-    return store::write_shape(state_->connection, proper, *signature, state_->file);
+    return store::write_shape(connection, proper, *signature);
   });
 }
 
 void Database::remove(std::span<const std::string> names) {
-  state_->change([&] {
+  state_->change([&](Connection& connection) {
     for (const std::string& name : names) {
-      store::delete_shape(state_->connection,
-                          existing_shape(state_->connection, name, state_->file));
+      store::delete_shape(connection, existing_shape(connection, name));
     }
     return names.size();
   });
 }
 
 void Database::rename(const std::string& from, const std::string& to) {
-  state_->change([&] {
-    const ShapeRow row = existing_shape(state_->connection, from, state_->file);
+  state_->change([&](Connection& connection) {
+    const ShapeRow row = existing_shape(connection, from);
     ShapeInfo info = row.info;
     info.name = to;
     info = store::checked(info);
-    if (store::find_shape(state_->connection, to, state_->file)) {
-      fail(state_->file, to, "is another shape's name; remove that or choose another");
+    if (store::find_shape(connection, to)) {
+      fail(connection, to, "is another shape's name; remove that or choose another");
     }
-    store::relabel_shape(state_->connection, row, info);
+    store::relabel_shape(connection, row, info);
     return true;
+  });
+}
+
+void Database::put_failure(const std::string& name, const std::string& reason) {
+  if (!store::can_be_name(name)) return;
+  state_->change([&](Connection& connection) {
+    connection.run(
+        "INSERT INTO failures (name, reason) VALUES (?1, ?2) "
+        "ON CONFLICT (name) DO UPDATE SET reason = excluded.reason",
+        {name, reason});
+    return true;
+  });
+}
+
+std::map<std::string, std::string> Database::failures() const {
+  return state_->exclusively([](Connection& connection) {
+    std::map<std::string, std::string> failures;
+    const auto rows = connection.query("SELECT name, reason FROM failures");
+    while (rows->next()) failures.emplace(rows->bytes(0), rows->bytes(1));
+    return failures;
   });
 }
 

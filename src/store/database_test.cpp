@@ -14,15 +14,17 @@ namespace {
 
 using ::testing::Test;
 
+MORSEL_FOR_EACH_DATABASE(EachDatabaseTest);
+
 bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_F(DatabaseTest, WhatIsPutComesBack) {
+TEST_P(EachDatabaseTest, WhatIsPutComesBack) {
   const ShapeInfo info{"models/cat.off", "cat", {"scanned", "small"}, "/data/models/cat.off"};
   const ShapeData data = dumbbell_data();
   create().put(info, data);
-  const StoredShape shape = Database::open(file_, Access::kRead).get("models/cat.off");
+  const StoredShape shape = open(Access::kRead).get("models/cat.off");
   EXPECT_EQ(shape.info, info);
   EXPECT_EQ(shape.data.content, data.content);
   EXPECT_EQ(shape.data.options, data.options);
@@ -38,7 +40,7 @@ TEST_F(DatabaseTest, IsOneFileWhenClosed) {
   EXPECT_EQ(names_in_folder(), std::vector<std::string>{"shapes.db"});
 }
 
-TEST_F(DatabaseTest, PutSaysWhatItDid) {
+TEST_P(EachDatabaseTest, PutSaysWhatItDid) {
   Database database = create();
   const ShapeData one = dumbbell_data(1);
   const ShapeData two = dumbbell_data(2);
@@ -50,7 +52,7 @@ TEST_F(DatabaseTest, PutSaysWhatItDid) {
   EXPECT_EQ(database.get("a").data.content, two.content);
 }
 
-TEST_F(DatabaseTest, ContentIsStoredOnce) {
+TEST_P(EachDatabaseTest, ContentIsStoredOnce) {
   {
     Database database = create();
     const ShapeData data = dumbbell_data();
@@ -60,11 +62,10 @@ TEST_F(DatabaseTest, ContentIsStoredOnce) {
     database.remove(std::vector<std::string>{"a"});
     EXPECT_EQ(database.get("b").data.signature, data.signature);
   }
-  SQLite::Database raw(file_.string());
-  EXPECT_EQ(raw.execAndGet("SELECT count(*) FROM signatures").getInt(), 1);
+  EXPECT_EQ(integer("SELECT count(*) FROM signatures"), 1);
 }
 
-TEST_F(DatabaseTest, UnusedContentIsDropped) {
+TEST_P(EachDatabaseTest, UnusedContentIsDropped) {
   {
     Database database = create();
     database.put({"a", {}, {}, {}}, dumbbell_data(1));
@@ -72,11 +73,10 @@ TEST_F(DatabaseTest, UnusedContentIsDropped) {
     database.put({"b", {}, {}, {}}, dumbbell_data(3));
     database.remove(std::vector<std::string>{"b"});
   }
-  SQLite::Database raw(file_.string());
-  EXPECT_EQ(raw.execAndGet("SELECT count(*) FROM signatures").getInt(), 1);
+  EXPECT_EQ(integer("SELECT count(*) FROM signatures"), 1);
 }
 
-TEST_F(DatabaseTest, ListFilters) {
+TEST_P(EachDatabaseTest, ListFilters) {
   Database database = create();
   const ShapeData data = dumbbell_data();
   database.put({"b", "cat", {"x", "y"}, {}}, data);
@@ -92,7 +92,7 @@ TEST_F(DatabaseTest, ListFilters) {
   EXPECT_EQ(names({"dog", "y"}), "");
 }
 
-TEST_F(DatabaseTest, ShapesAreReadAgainOnlyAfterAChange) {
+TEST_P(EachDatabaseTest, ShapesAreReadAgainOnlyAfterAChange) {
   Database database = create();
   Database other = create();
   const ShapeData data = dumbbell_data();
@@ -108,7 +108,7 @@ TEST_F(DatabaseTest, ShapesAreReadAgainOnlyAfterAChange) {
   EXPECT_EQ(database.shapes()->back().name, "c");
 }
 
-TEST_F(DatabaseTest, RemoveIsAllOrNothing) {
+TEST_P(EachDatabaseTest, RemoveIsAllOrNothing) {
   Database database = create();
   database.put({"a", {}, {}, {}}, dumbbell_data());
   const std::string message = message_of(ErrorCode::kInput, [&] {
@@ -118,7 +118,7 @@ TEST_F(DatabaseTest, RemoveIsAllOrNothing) {
   EXPECT_TRUE(database.find("a"));
 }
 
-TEST_F(DatabaseTest, Rename) {
+TEST_P(EachDatabaseTest, Rename) {
   Database database = create();
   database.put({"a", "cat", {"x"}, {}}, dumbbell_data());
   database.put({"b", {}, {}, {}}, dumbbell_data());
@@ -131,7 +131,7 @@ TEST_F(DatabaseTest, Rename) {
   EXPECT_TRUE(database.find("c"));
 }
 
-TEST_F(DatabaseTest, NamesThatCannotBe) {
+TEST_P(EachDatabaseTest, NamesThatCannotBe) {
   Database database = create();
   const ShapeData data = dumbbell_data();
   for (const std::string& name :
@@ -142,7 +142,7 @@ TEST_F(DatabaseTest, NamesThatCannotBe) {
   EXPECT_EQ(database.size(), 1U);
 }
 
-TEST_F(DatabaseTest, TagsAreASet) {
+TEST_P(EachDatabaseTest, TagsAreASet) {
   Database database = create();
   database.put({"a", {}, {"y", "x", "y"}, {}}, dumbbell_data());
   EXPECT_EQ(database.find("a")->tags, (std::vector<std::string>{"x", "y"}));
@@ -173,12 +173,11 @@ TEST_F(DatabaseTest, AFolderThatIsMissing) {
   message_of(ErrorCode::kOutput, [&] { (void)create(); });
 }
 
-TEST_F(DatabaseTest, NewerTablesAreRefused) {
+TEST_P(EachDatabaseTest, NewerTablesAreRefused) {
   create().put({"a", {}, {}, {}}, dumbbell_data());
-  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+  connect(place_, Access::kWrite)->set_version(99);
   for (const Access access : {Access::kRead, Access::kWrite, Access::kCreate}) {
-    const std::string message =
-        message_of(ErrorCode::kInput, [&] { (void)Database::open(file_, access); });
+    const std::string message = message_of(ErrorCode::kInput, [&] { (void)open(access); });
     EXPECT_TRUE(holds(message, "newer morsel (version 99")) << message;
   }
 }
@@ -201,7 +200,7 @@ TEST_F(DatabaseTest, AnEmptyFileBecomesADatabase) {
 }
 
 // Each of several threads has a connection of its own, as several programs would.
-TEST_F(DatabaseTest, ManyWritersAtOnce) {
+TEST_P(EachDatabaseTest, ManyWritersAtOnce) {
   constexpr int kWriters = 4;
   constexpr int kShapes = 15;
   const ShapeData data = dumbbell_data();
@@ -218,7 +217,7 @@ TEST_F(DatabaseTest, ManyWritersAtOnce) {
       });
     }
   }
-  const Database database = Database::open(file_, Access::kRead);
+  const Database database = open(Access::kRead);
   EXPECT_EQ(database.size(), static_cast<std::size_t>(kShapes * (kWriters + 1)));
   EXPECT_TRUE(database.check().empty());
 }

@@ -155,7 +155,10 @@ IndexReport index_files(Database& database, std::span<const ShapeFile> files,
   try {
     in_parallel(files.size(), at_once, [&](std::size_t i) {
       silent.check();
-      if (outcomes[i].failure.empty()) outcomes[i] = index_file(database, files[i], one, silent);
+      if (outcomes[i].failure.empty()) {
+        outcomes[i] = index_file(database, files[i], one, silent);
+        if (!outcomes[i].change) database.put_failure(files[i].name, outcomes[i].failure);
+      }
       const double share = static_cast<double>(++done) / static_cast<double>(files.size());
       if (progress != nullptr) progress->report("index", share);
     });

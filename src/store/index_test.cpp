@@ -12,7 +12,7 @@
 namespace morsel::store {
 namespace {
 
-class IndexTest : public DatabaseTest {
+class IndexTest : public EachDatabaseTest {
  protected:
   ShapeFile shape(const std::string& name, const std::vector<Vec3>& points) const {
     std::ofstream stream(folder_ / name);
@@ -37,7 +37,9 @@ class IndexTest : public DatabaseTest {
   }
 };
 
-TEST_F(IndexTest, StoresThenSkips) {
+MORSEL_FOR_EACH_DATABASE(IndexTest);
+
+TEST_P(IndexTest, StoresThenSkips) {
   Database database = create();
   const std::vector<ShapeFile> files = shapes_of(4);
   IndexReport report = index_files(database, files);
@@ -53,7 +55,7 @@ TEST_F(IndexTest, StoresThenSkips) {
   EXPECT_TRUE(database.check().empty());
 }
 
-TEST_F(IndexTest, IsTheSameForAnyNumberOfThreads) {
+TEST_P(IndexTest, IsTheSameForAnyNumberOfThreads) {
   const std::vector<ShapeFile> files = shapes_of(5);
   std::vector<std::string> lines;
   for (const int threads : {1, 2, 7}) {
@@ -68,7 +70,7 @@ TEST_F(IndexTest, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(lines[2], lines[0]);
 }
 
-TEST_F(IndexTest, BadFilesDoNotStopTheOthers) {
+TEST_P(IndexTest, BadFilesDoNotStopTheOthers) {
   Database database = create();
   std::vector<ShapeFile> files = shapes_of(2);
   write(folder_ / "bad.ply", "ply\nnonsense");
@@ -85,9 +87,16 @@ TEST_F(IndexTest, BadFilesDoNotStopTheOthers) {
   EXPECT_NE(report.failures[2].reason.find("plane"), std::string::npos);
   EXPECT_NE(report.failures[3].reason.find("its name 's1.xyz' is that of"), std::string::npos);
   EXPECT_NE(report.failures[4].reason.find("the name ''"), std::string::npos);
+  std::vector<std::string> failed;
+  for (const auto& [name, reason] : database.failures()) failed.push_back(name);
+  EXPECT_EQ(failed, (std::vector<std::string>{"bad.ply", "flat.xyz", "missing.off"}));
+  EXPECT_NE(database.failures().at("flat.xyz").find("plane"), std::string::npos);
+  shape("flat.xyz", shapes::dumbbell(800));
+  (void)index_files(database, files);
+  EXPECT_EQ(database.failures().size(), 2U);
 }
 
-TEST_F(IndexTest, KeepsTheClassAndAddsTags) {
+TEST_P(IndexTest, KeepsTheClassAndAddsTags) {
   Database database = create();
   std::vector<ShapeFile> files = shapes_of(1);
   files[0].class_name = "dumbbell";
@@ -100,7 +109,7 @@ TEST_F(IndexTest, KeepsTheClassAndAddsTags) {
   EXPECT_EQ(database.find("s0.xyz")->tags, (std::vector<std::string>{"a", "b"}));
 }
 
-TEST_F(IndexTest, WhatWasDoneBeforeACancelStays) {
+TEST_P(IndexTest, WhatWasDoneBeforeACancelStays) {
   Database database = create();
   const std::vector<ShapeFile> files = shapes_of(6);
   Progress progress([&](std::string_view, double share) {
@@ -117,7 +126,7 @@ TEST_F(IndexTest, WhatWasDoneBeforeACancelStays) {
   EXPECT_EQ(report.added, 3U);
 }
 
-TEST_F(IndexTest, ReportsTheShareThatIsDone) {
+TEST_P(IndexTest, ReportsTheShareThatIsDone) {
   Database database = create();
   std::vector<double> shares;
   const Progress progress([&](std::string_view, double share) { shares.push_back(share); });

@@ -90,15 +90,15 @@ StoredShape shape_of(const std::string& line, const std::string& place) {
 }  // namespace
 
 void Database::export_lines(std::ostream& stream) const {
-  state_->look([&] {
-    SQLite::Statement statement(state_->connection,
-                                fmt::format("SELECT {}, {} FROM shapes JOIN signatures ON "
-                                            "signatures.id = shapes.signature ORDER BY name",
-                                            store::kShapeColumns, store::kDataColumns));
+  state_->once(State::Mode::kRead, [&](store::Connection& connection) {
+    const auto rows =
+        connection.query(fmt::format("SELECT {}, {} FROM shapes JOIN signatures ON "
+                                     "signatures.id = shapes.signature ORDER BY name",
+                                     store::kShapeColumns, store::kDataColumns));
     stream << Json{{kHeaderField, kVersion}}.dump() << '\n';
-    while (statement.executeStep()) {
-      const ShapeInfo info = store::read_shape(statement, state_->file).info;
-      stream << line_of(info, store::read_data(statement, state_->file, 7)) << '\n';
+    while (rows->next()) {
+      const ShapeInfo info = store::read_shape(*rows, connection.name()).info;
+      stream << line_of(info, store::read_data(*rows, connection.name(), 7)) << '\n';
       if (!stream) throw Error(ErrorCode::kOutput, "the export cannot be written");
     }
     return true;
@@ -106,7 +106,7 @@ void Database::export_lines(std::ostream& stream) const {
 }
 
 std::size_t Database::import_lines(std::istream& stream, const std::string& name) {
-  return state_->change([&] {
+  return state_->once(State::Mode::kWrite, [&](store::Connection& connection) {
     std::size_t number = 0;
     std::size_t count = 0;
     for (std::string line; std::getline(stream, line);) {
@@ -118,8 +118,8 @@ std::size_t Database::import_lines(std::istream& stream, const std::string& name
         continue;
       }
       const StoredShape shape = shape_of(line, place);
-      const std::int64_t signature = store::insert_data(state_->connection, shape.data);
-      store::write_shape(state_->connection, store::checked(shape.info), signature, state_->file);
+      const std::int64_t signature = store::insert_data(connection, shape.data);
+      store::write_shape(connection, store::checked(shape.info), signature);
       ++count;
     }
     if (stream.bad()) throw Error(ErrorCode::kInput, name + ": cannot read");

@@ -10,7 +10,7 @@
 namespace morsel::store {
 namespace {
 
-class LinesTest : public DatabaseTest {
+class LinesTest : public EachDatabaseTest {
  protected:
   static std::string lines_of(const Database& database) {
     std::ostringstream stream;
@@ -32,7 +32,9 @@ class LinesTest : public DatabaseTest {
   }
 };
 
-TEST_F(LinesTest, ExportAndImportAreInverse) {
+MORSEL_FOR_EACH_DATABASE(LinesTest);
+
+TEST_P(LinesTest, ExportAndImportAreInverse) {
   const Database database = filled();
   const std::string lines = lines_of(database);
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 4);
@@ -44,7 +46,7 @@ TEST_F(LinesTest, ExportAndImportAreInverse) {
   EXPECT_EQ(copy.get("b").data.signature, database.get("b").data.signature);
 }
 
-TEST_F(LinesTest, DoNotDependOnTheOrderOfStoring) {
+TEST_P(LinesTest, DoNotDependOnTheOrderOfStoring) {
   Database other = Database::open(folder_ / "other.db", Access::kCreate);
   other.put({"c", {}, {}, {}}, dumbbell_data(1));
   other.put({"a “quoted”", {}, {}, {}}, dumbbell_data(2));
@@ -52,7 +54,7 @@ TEST_F(LinesTest, DoNotDependOnTheOrderOfStoring) {
   EXPECT_EQ(lines_of(other), lines_of(filled()));
 }
 
-TEST_F(LinesTest, ImportReplacesNames) {
+TEST_P(LinesTest, ImportReplacesNames) {
   const std::string lines = lines_of(filled());
   Database database = Database::open(folder_ / "copy.db", Access::kCreate);
   database.put({"b", "dog", {"z"}, {}}, dumbbell_data(3));
@@ -62,7 +64,7 @@ TEST_F(LinesTest, ImportReplacesNames) {
   EXPECT_EQ(database.find("b")->class_name, "cat");
 }
 
-TEST_F(LinesTest, BadLinesAreNamedAndNothingIsStored) {
+TEST_P(LinesTest, BadLinesAreNamedAndNothingIsStored) {
   const std::string lines = lines_of(filled());
   const std::size_t second = lines.find('\n') + 1;
   const std::size_t third = lines.find('\n', second) + 1;

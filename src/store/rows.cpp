@@ -15,23 +15,25 @@
 namespace morsel::store {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& row, const std::string& reason) {
-  throw Error(ErrorCode::kInput, fmt::format("{}: {}: {}; restore it from an export or a copy",
-                                             file.string(), row, reason));
+constexpr std::size_t kMostTextBytes = 1024;
+
+[[noreturn]] void fail(const std::string& place, const std::string& row,
+                       const std::string& reason) {
+  throw Error(ErrorCode::kInput,
+              fmt::format("{}: {}: {}; restore it from an export or a copy", place, row, reason));
 }
 
 std::string tags_text(const std::vector<std::string>& tags) { return Json(tags).dump(); }
 
-std::vector<std::string> tags_of(const std::string& text, const fs::path& file,
+std::vector<std::string> tags_of(const std::string& text, const std::string& place,
                                  const std::string& row) {
   const Json json = Json::parse(text, nullptr, false);
   const bool strings =
       json.is_array() &&
       std::all_of(json.begin(), json.end(), [](const Json& tag) { return tag.is_string(); });
-  if (!strings) fail(file, row, "its tags cannot be read");
+  if (!strings) fail(place, row, "its tags cannot be read");
   return json.get<std::vector<std::string>>();
 }
 
@@ -59,10 +61,6 @@ DataBytes bytes_of(const ShapeData& data) {
           encode_sketch(data.sketch)};
 }
 
-void bind_blob(SQLite::Statement& statement, int index, const std::string& bytes) {
-  statement.bindNoCopy(index, bytes.data(), static_cast<int>(bytes.size()));
-}
-
 // Names must be UTF-8: they go into JSON.
 bool is_utf8(const std::string& text) {
   try {
@@ -73,158 +71,153 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-void check_text(const char* what, const std::string& text, std::size_t least) {
-  constexpr std::size_t kMost = 1024;
+bool can_be_text(const std::string& text, std::size_t least) {
   const bool control = std::any_of(text.begin(), text.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-  if (text.size() < least || text.size() > kMost || control || !is_utf8(text)) {
+  return text.size() >= least && text.size() <= kMostTextBytes && !control && is_utf8(text);
+}
+
+void check_text(const char* what, const std::string& text, std::size_t least) {
+  if (!can_be_text(text, least)) {
     throw Error(ErrorCode::kUsage,
                 fmt::format("{} {} cannot be stored; it must be {} to {} bytes of UTF-8 without "
                             "control characters",
-                            what, io::in_quotes(text), least, kMost));
+                            what, io::in_quotes(text), least, kMostTextBytes));
   }
 }
 
-void bind_shape(SQLite::Statement& statement, const ShapeInfo& info, std::int64_t signature) {
-  statement.bind(1, info.name);
-  statement.bind(2, info.class_name);
-  statement.bind(3, tags_text(info.tags));
-  statement.bind(4, info.source);
-  statement.bind(5, signature);
-  statement.bind(6, checksum_of(info, signature));
-}
-
-void update_shape(SQLite::Database& database, std::int64_t id, const ShapeInfo& info,
+void update_shape(Connection& connection, std::int64_t id, const ShapeInfo& info,
                   std::int64_t signature) {
-  SQLite::Statement statement(database,
-                              "UPDATE shapes SET name = ?, class = ?, tags = ?, source = ?, "
-                              "signature = ?, checksum = ? WHERE id = ?");
-  bind_shape(statement, info, signature);
-  statement.bind(7, id);
-  statement.exec();
+  connection.run(
+      "UPDATE shapes SET name = ?1, class = ?2, tags = ?3, source = ?4, signature = ?5, "
+      "checksum = ?6 WHERE id = ?7",
+      {info.name, info.class_name, tags_text(info.tags), info.source, signature,
+       checksum_of(info, signature), id});
 }
 
-void drop_unused_data(SQLite::Database& database, std::int64_t signature) {
-  SQLite::Statement statement(database,
-                              "DELETE FROM signatures WHERE id = ?1 AND NOT EXISTS "
-                              "(SELECT 1 FROM shapes WHERE signature = ?1)");
-  statement.bind(1, signature);
-  statement.exec();
+void drop_unused_data(Connection& connection, std::int64_t signature) {
+  connection.run(
+      "DELETE FROM signatures WHERE id = ?1 AND NOT EXISTS "
+      "(SELECT 1 FROM shapes WHERE signature = ?1)",
+      {signature});
 }
 
 }  // namespace
 
-ShapeRow read_shape(SQLite::Statement& row, const fs::path& file) {
+ShapeRow read_shape(const Rows& row, const std::string& place) {
   ShapeRow shape;
-  shape.id = row.getColumn(0).getInt64();
-  shape.info.name = row.getColumn(1).getString();
-  const std::string place = "shape " + io::in_quotes(shape.info.name);
-  shape.info.class_name = row.getColumn(2).getString();
-  shape.info.tags = tags_of(row.getColumn(3).getString(), file, place);
-  shape.info.source = row.getColumn(4).getString();
-  shape.signature = row.getColumn(5).getInt64();
-  if (row.getColumn(6).getInt64() != checksum_of(shape.info, shape.signature)) {
-    fail(file, place, "the row does not have its checksum");
+  shape.id = row.integer(0);
+  shape.info.name = row.bytes(1);
+  const std::string which = "shape " + io::in_quotes(shape.info.name);
+  shape.info.class_name = row.bytes(2);
+  shape.info.tags = tags_of(row.bytes(3), place, which);
+  shape.info.source = row.bytes(4);
+  shape.signature = row.integer(5);
+  shape.checksum = row.integer(6);
+  if (shape.checksum != checksum_of(shape.info, shape.signature)) {
+    fail(place, which, "the row does not have its checksum");
   }
   return shape;
 }
 
-Signature read_signature(const SQLite::Column& column, const std::string& name,
-                         const fs::path& file) {
-  const std::string bytes = column.getString();
-  const std::string place = fmt::format("{}: shape {}", file.string(), io::in_quotes(name));
-  return decode(std::as_bytes(std::span(bytes)), place);
-}
-
-ShapeData read_data(SQLite::Statement& row, const fs::path& file, int first_column) {
-  const auto column = [&](int index) { return row.getColumn(first_column + index); };
-  const std::string place = fmt::format("signature {}", column(0).getInt64());
+ShapeData read_data(const Rows& row, const std::string& place, int first_column) {
+  const std::string which = fmt::format("signature {}", row.integer(first_column));
   ShapeData data;
-  data.content = column(1).getString();
-  data.options = column(2).getString();
-  data.points = static_cast<std::uint64_t>(column(3).getInt64());
-  DataBytes bytes{column(4).getString(), column(5).getString()};
-  if (column(6).getInt64() != checksum_of(data, bytes)) {
-    fail(file, place, "the row does not have its checksum");
+  data.content = row.bytes(first_column + 1);
+  data.options = row.bytes(first_column + 2);
+  data.points = static_cast<std::uint64_t>(row.integer(first_column + 3));
+  DataBytes bytes{row.bytes(first_column + 4), row.bytes(first_column + 5)};
+  if (row.integer(first_column + 6) != checksum_of(data, bytes)) {
+    fail(place, which, "the row does not have its checksum");
   }
-  const std::string name = file.string() + ": " + place;
+  const std::string name = place + ": " + which;
   data.signature = decode(std::as_bytes(std::span(bytes.signature)), name);
   data.sketch = decode_sketch(std::move(bytes.sketch), name);
   return data;
 }
 
-void throw_missing(const std::string& name, const fs::path& file) {
+void throw_missing(const std::string& name, const std::string& place) {
   throw Error(ErrorCode::kInput, fmt::format("{}: {} is not in the database; list shows the names",
-                                             file.string(), io::in_quotes(name)));
+                                             place, io::in_quotes(name)));
 }
 
-std::optional<ShapeRow> find_shape(SQLite::Database& database, const std::string& name,
-                                   const fs::path& file) {
-  SQLite::Statement statement(database,
-                              fmt::format("SELECT {} FROM shapes WHERE name = ?", kShapeColumns));
-  statement.bind(1, name);
-  if (!statement.executeStep()) return std::nullopt;
-  return read_shape(statement, file);
+std::optional<ShapeRow> find_shape(Connection& connection, const std::string& name) {
+  if (!is_utf8(name)) return std::nullopt;
+  const auto rows =
+      connection.query(fmt::format("SELECT {} FROM shapes WHERE name = ?1", kShapeColumns), {name});
+  if (!rows->next()) return std::nullopt;
+  return read_shape(*rows, connection.name());
 }
 
-std::vector<ShapeRow> all_shapes(SQLite::Database& database, const fs::path& file) {
-  SQLite::Statement statement(database,
-                              fmt::format("SELECT {} FROM shapes ORDER BY name", kShapeColumns));
-  std::vector<ShapeRow> rows;
-  while (statement.executeStep()) rows.push_back(read_shape(statement, file));
-  return rows;
+void each_signature(Connection& connection, const std::string& rest,
+                    std::initializer_list<Value> parameters,
+                    const std::function<void(ShapeRow, Signature)>& visit) {
+  const auto rows =
+      connection.query(fmt::format("SELECT {}, signatures.signature FROM shapes JOIN signatures ON "
+                                   "signatures.id = shapes.signature {}",
+                                   kShapeColumns, rest),
+                       parameters);
+  while (rows->next()) {
+    ShapeRow row = read_shape(*rows, connection.name());
+    const std::string bytes = rows->bytes(7);
+    const std::string which =
+        fmt::format("{}: shape {}", connection.name(), io::in_quotes(row.info.name));
+    Signature signature = decode(std::as_bytes(std::span(bytes)), which);
+    visit(std::move(row), std::move(signature));
+  }
 }
 
-std::optional<std::int64_t> find_data(SQLite::Database& database, const std::string& content) {
-  SQLite::Statement statement(database, "SELECT id FROM signatures WHERE content = ?");
-  statement.bind(1, content);
-  if (!statement.executeStep()) return std::nullopt;
-  return statement.getColumn(0).getInt64();
+std::vector<ShapeRow> all_shapes(Connection& connection) {
+  const auto rows =
+      connection.query(fmt::format("SELECT {} FROM shapes ORDER BY name", kShapeColumns));
+  std::vector<ShapeRow> shapes;
+  while (rows->next()) shapes.push_back(read_shape(*rows, connection.name()));
+  return shapes;
 }
 
-std::int64_t insert_data(SQLite::Database& database, const ShapeData& data) {
-  if (const auto known = find_data(database, data.content)) return *known;
+std::optional<std::int64_t> find_data(Connection& connection, const std::string& content) {
+  return connection.integer("SELECT id FROM signatures WHERE content = ?1", {content});
+}
+
+std::int64_t insert_data(Connection& connection, const ShapeData& data) {
+  if (const auto known = find_data(connection, data.content)) return *known;
   const DataBytes bytes = bytes_of(data);
-  SQLite::Statement statement(database,
-                              "INSERT INTO signatures (content, options, points, signature, "
-                              "sketch, checksum) VALUES (?, ?, ?, ?, ?, ?)");
-  statement.bind(1, data.content);
-  statement.bind(2, data.options);
-  statement.bind(3, static_cast<std::int64_t>(data.points));
-  bind_blob(statement, 4, bytes.signature);
-  bind_blob(statement, 5, bytes.sketch);
-  statement.bind(6, checksum_of(data, bytes));
-  statement.exec();
-  return database.getLastInsertRowid();
+  return connection
+      .integer(
+          "INSERT INTO signatures (content, options, points, signature, sketch, checksum) "
+          "VALUES (?1, ?2, ?3, ?4, ?5, ?6) RETURNING id",
+          {data.content, data.options, static_cast<std::int64_t>(data.points),
+           Blob(bytes.signature), Blob(bytes.sketch), checksum_of(data, bytes)})
+      .value();
 }
 
-Change write_shape(SQLite::Database& database, const ShapeInfo& info, std::int64_t signature,
-                   const fs::path& file) {
-  const std::optional<ShapeRow> old = find_shape(database, info.name, file);
+Change write_shape(Connection& connection, const ShapeInfo& info, std::int64_t signature) {
+  connection.run("DELETE FROM failures WHERE name = ?1", {info.name});
+  const std::optional<ShapeRow> old = find_shape(connection, info.name);
   if (!old) {
-    SQLite::Statement statement(database,
-                                "INSERT INTO shapes (name, class, tags, source, signature, "
-                                "checksum) VALUES (?, ?, ?, ?, ?, ?)");
-    bind_shape(statement, info, signature);
-    statement.exec();
+    connection.run(
+        "INSERT INTO shapes (name, class, tags, source, signature, checksum) "
+        "VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
+        {info.name, info.class_name, tags_text(info.tags), info.source, signature,
+         checksum_of(info, signature)});
     return Change::kAdded;
   }
   if (old->info == info && old->signature == signature) return Change::kUnchanged;
-  update_shape(database, old->id, info, signature);
-  if (old->signature != signature) drop_unused_data(database, old->signature);
+  update_shape(connection, old->id, info, signature);
+  if (old->signature != signature) drop_unused_data(connection, old->signature);
   return Change::kReplaced;
 }
 
-void relabel_shape(SQLite::Database& database, const ShapeRow& row, const ShapeInfo& info) {
-  update_shape(database, row.id, info, row.signature);
+void relabel_shape(Connection& connection, const ShapeRow& row, const ShapeInfo& info) {
+  update_shape(connection, row.id, info, row.signature);
 }
 
-void delete_shape(SQLite::Database& database, const ShapeRow& row) {
-  SQLite::Statement statement(database, "DELETE FROM shapes WHERE id = ?");
-  statement.bind(1, row.id);
-  statement.exec();
-  drop_unused_data(database, row.signature);
+void delete_shape(Connection& connection, const ShapeRow& row) {
+  connection.run("DELETE FROM shapes WHERE id = ?1", {row.id});
+  drop_unused_data(connection, row.signature);
 }
+
+bool can_be_name(const std::string& text) { return can_be_text(text, 1); }
 
 ShapeInfo checked(ShapeInfo info) {
   check_text("the name", info.name, 1);

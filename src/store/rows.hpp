@@ -1,14 +1,15 @@
 // Shapes and signatures as rows of the tables, each with its checksum.
 #pragma once
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include <cstdint>
-#include <filesystem>
+#include <functional>
+#include <initializer_list>
 #include <morsel/database.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "store/connection.hpp"
 
 namespace morsel::store {
 
@@ -17,6 +18,7 @@ struct ShapeRow {
   std::int64_t id = 0;
   ShapeInfo info;
   std::int64_t signature = 0;
+  std::int64_t checksum = 0;
 };
 
 /// Columns of a query whose rows read_shape() takes.
@@ -27,38 +29,38 @@ inline constexpr const char* kDataColumns =
     "signatures.id, content, options, points, signatures.signature, sketch, "
     "signatures.checksum";
 
-/// Throw Error(kInput) naming the database `file` and the row that is damaged.
-[[nodiscard]] ShapeRow read_shape(SQLite::Statement& row, const std::filesystem::path& file);
-[[nodiscard]] ShapeData read_data(SQLite::Statement& row, const std::filesystem::path& file,
-                                  int first_column = 0);
-[[nodiscard]] Signature read_signature(const SQLite::Column& column, const std::string& name,
-                                       const std::filesystem::path& file);
+/// Throw Error(kInput) naming the database `place` and the row that is damaged.
+[[nodiscard]] ShapeRow read_shape(const Rows& row, const std::string& place);
+[[nodiscard]] ShapeData read_data(const Rows& row, const std::string& place, int first_column = 0);
 
 /// Says that there is no shape of that name.
-[[noreturn]] void throw_missing(const std::string& name, const std::filesystem::path& file);
+[[noreturn]] void throw_missing(const std::string& name, const std::string& place);
 
-[[nodiscard]] std::optional<ShapeRow> find_shape(SQLite::Database& database,
-                                                 const std::string& name,
-                                                 const std::filesystem::path& file);
+[[nodiscard]] std::optional<ShapeRow> find_shape(Connection& connection, const std::string& name);
+/// Calls visit(row, signature) for shapes with their signatures, as `rest`, what follows FROM in
+/// the statement, chooses and orders them.
+void each_signature(Connection& connection, const std::string& rest,
+                    std::initializer_list<Value> parameters,
+                    const std::function<void(ShapeRow, Signature)>& visit);
 /// All shapes by name.
-[[nodiscard]] std::vector<ShapeRow> all_shapes(SQLite::Database& database,
-                                               const std::filesystem::path& file);
+[[nodiscard]] std::vector<ShapeRow> all_shapes(Connection& connection);
 
-[[nodiscard]] std::optional<std::int64_t> find_data(SQLite::Database& database,
+[[nodiscard]] std::optional<std::int64_t> find_data(Connection& connection,
                                                     const std::string& content);
 /// Returns the row's id; that of the row of that content where there is one.
-std::int64_t insert_data(SQLite::Database& database, const ShapeData& data);
+std::int64_t insert_data(Connection& connection, const ShapeData& data);
 
 /// Adds a shape or replaces the one of that name. Within the caller's transaction.
-Change write_shape(SQLite::Database& database, const ShapeInfo& info, std::int64_t signature,
-                   const std::filesystem::path& file);
+Change write_shape(Connection& connection, const ShapeInfo& info, std::int64_t signature);
 /// Gives the row another name, class, tags and source.
-void relabel_shape(SQLite::Database& database, const ShapeRow& row, const ShapeInfo& info);
+void relabel_shape(Connection& connection, const ShapeRow& row, const ShapeInfo& info);
 /// Drops the shape, and its signature when no other shape has it.
-void delete_shape(SQLite::Database& database, const ShapeRow& row);
+void delete_shape(Connection& connection, const ShapeRow& row);
 
 /// Throws Error(kUsage) when a shape cannot be stored under such a name, class and tags. Returns it
 /// with the tags in order.
 [[nodiscard]] ShapeInfo checked(ShapeInfo info);
+/// Whether a shape can have that name.
+[[nodiscard]] bool can_be_name(const std::string& text);
 
 }  // namespace morsel::store

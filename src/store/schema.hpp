@@ -1,20 +1,25 @@
 // The tables of a database and how older ones become newer.
 #pragma once
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
-#include <filesystem>
+#include "store/connection.hpp"
 
 namespace morsel::store {
 
-/// What tells a database of morsel's from any other SQLite file.
+/// The version of the tables that this program reads and writes.
+inline constexpr int kSchemaVersion = 3;
+
+/// What tells a database of morsel's from any other SQLite file, and its locks in PostgreSQL from
+/// any other.
 inline constexpr int kApplicationId = 0x4d72736c;  // "Mrsl"
 
-/// Throws Error(kInput) naming `file` unless its tables can be read as they are, or migrated.
-/// Returns their version; 0 for a file without tables.
-[[nodiscard]] int check_version(SQLite::Database& database, const std::filesystem::path& file);
+extern const Schema kSqliteSchema;
+extern const Schema kPostgresSchema;
+
+/// Throws Error(kInput) unless the tables can be read as they are, or migrated. Returns their
+/// version; 0 where there are none.
+int check_version(Connection& connection);
 
 /// Brings the tables to kSchemaVersion, all or nothing; does nothing when they are.
-void migrate(SQLite::Database& database, const std::filesystem::path& file);
+void migrate(Connection& connection);
 
 }  // namespace morsel::store

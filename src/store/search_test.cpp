@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/random.hpp"
 #include "store/test_database.hpp"
 
 namespace morsel::store {
 namespace {
 
-class SearchTest : public DatabaseTest {
+class SearchTest : public EachDatabaseTest {
  protected:
   // Names so that ties, the same content under two names, are not in the order of their storing.
   void fill(Database& database, std::uint64_t count) {
@@ -43,14 +44,16 @@ class SearchTest : public DatabaseTest {
 
   [[nodiscard]] std::vector<std::filesystem::path> blocks() const {
     std::vector<std::filesystem::path> paths;
-    for (const std::string& name : names_in_folder()) {
-      if (name.ends_with(".block")) paths.push_back(folder_ / name);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+      if (entry.path().extension() == ".block") paths.push_back(entry.path());
     }
     return paths;
   }
 };
 
-TEST_F(SearchTest, EqualsTheExhaustiveAnswer) {
+MORSEL_FOR_EACH_DATABASE(SearchTest);
+
+TEST_P(SearchTest, EqualsTheExhaustiveAnswer) {
   Database database = create();
   fill(database, 30);
   for (const std::uint64_t seed : {3U, 100U, 101U}) {
@@ -61,7 +64,7 @@ TEST_F(SearchTest, EqualsTheExhaustiveAnswer) {
   }
 }
 
-TEST_F(SearchTest, FindsItselfFirst) {
+TEST_P(SearchTest, FindsItselfFirst) {
   Database database = create();
   fill(database, 10);
   const auto hits = database.search(database.get("z4").data.signature, 3);
@@ -70,11 +73,11 @@ TEST_F(SearchTest, FindsItselfFirst) {
   EXPECT_EQ(hits[0].score, 1.0);
 }
 
-TEST_F(SearchTest, AnEmptyDatabaseHasNoAnswer) {
+TEST_P(SearchTest, AnEmptyDatabaseHasNoAnswer) {
   EXPECT_TRUE(create().search(dumbbell_data().signature, 5).empty());
 }
 
-TEST_F(SearchTest, BlockFollowsTheDatabase) {
+TEST_P(SearchTest, BlockFollowsTheDatabase) {
   Database database = create();
   fill(database, 5);
   const Signature query = dumbbell_data().signature;
@@ -91,7 +94,68 @@ TEST_F(SearchTest, BlockFollowsTheDatabase) {
   EXPECT_NE(database.search(query, 1).at(0).info.name, "itself");
 }
 
-TEST_F(SearchTest, OtherWritersAreSeen) {
+// What did not change is not read again: it could not be.
+TEST_P(SearchTest, BlockIsMadeFromWhatChanged) {
+  Database database = create();
+  fill(database, 9);
+  const ShapeData first = dumbbell_data();
+  (void)database.search(first.signature, 1);
+  run(std::string(on_server() ? "ALTER TABLE signatures DISABLE TRIGGER USER;"
+                              : "DROP TRIGGER signature_changed;") +
+      "UPDATE signatures SET signature = sketch");
+  database.put({"itself", {}, {}, {}}, first);
+  EXPECT_EQ(database.search(first.signature, 1).at(0).info.name, "itself");
+  database.rename("itself", "renamed");
+  EXPECT_EQ(database.search(first.signature, 1).at(0).info.name, "renamed");
+  EXPECT_EQ(create().search(first.signature, 1).at(0).info.name, "renamed");
+}
+
+TEST_P(SearchTest, BlocksAfterManyChangesEqualTheDatabase) {
+  Database database = create();
+  fill(database, 12);
+  const Signature query = dumbbell_data().signature;
+  Random random(3);
+  for (int round = 0; round < 20; ++round) {
+    const auto all = database.list();
+    const std::string name = all[random.below(all.size())].name;
+    const std::uint64_t what = random.below(4);
+    if (what == 0) {
+      database.put({name, {}, {}, {}}, varied(dumbbell_data(), random.below(1000)));
+    } else if (what == 1) {
+      database.remove(std::vector<std::string>{name});
+    } else if (what == 2) {
+      database.rename(name, "renamed " + std::to_string(round));
+    } else {
+      database.put({"new " + std::to_string(round), {}, {}, {}},
+                   varied(dumbbell_data(), 1000 + random.below(1000)));
+    }
+    EXPECT_EQ(names_of(database.search(query, 5)), best(database, query, 5));
+    EXPECT_EQ(database.check(), std::vector<std::string>{});
+  }
+}
+
+// A backup has fewer changes, and other ones after it.
+TEST_P(SearchTest, BlocksOfAnotherHistoryAreNotTrusted) {
+  const ShapeData first = dumbbell_data();
+  {
+    Database database = create();
+    fill(database, 4);
+    (void)database.search(first.signature, 1);
+  }
+  ASSERT_EQ(blocks().size(), 1U);
+  if (on_server()) {
+    run("DROP SCHEMA morsel CASCADE");
+  } else {
+    std::filesystem::remove(place_);
+  }
+  Database database = create();
+  for (int i = 0; i < 20; ++i)
+    database.put({"b" + std::to_string(i), {}, {}, {}}, varied(first, 50 + i));
+  EXPECT_EQ(names_of(database.search(first.signature, 5)), best(database, first.signature, 5));
+  EXPECT_EQ(database.check(), std::vector<std::string>{});
+}
+
+TEST_P(SearchTest, OtherWritersAreSeen) {
   Database database = create();
   fill(database, 3);
   const Signature query = dumbbell_data().signature;
@@ -100,7 +164,7 @@ TEST_F(SearchTest, OtherWritersAreSeen) {
   EXPECT_EQ(database.search(query, 1).at(0).info.name, "itself");
 }
 
-TEST_F(SearchTest, ADamagedBlockIsNeverTrusted) {
+TEST_P(SearchTest, ADamagedBlockIsNeverTrusted) {
   {
     Database database = create();
     fill(database, 6);
@@ -120,7 +184,7 @@ TEST_F(SearchTest, ADamagedBlockIsNeverTrusted) {
   }
 }
 
-TEST_F(SearchTest, MatrixIsSymmetricWithOnesAndOrderedByClass) {
+TEST_P(SearchTest, MatrixIsSymmetricWithOnesAndOrderedByClass) {
   Database database = create();
   const ShapeData first = dumbbell_data();
   database.put({"c", "x", {}, {}}, varied(first, 1));
@@ -140,7 +204,7 @@ TEST_F(SearchTest, MatrixIsSymmetricWithOnesAndOrderedByClass) {
   }
 }
 
-TEST_F(SearchTest, MatrixOfSomeIsThatOfAllWithoutTheRest) {
+TEST_P(SearchTest, MatrixOfSomeIsThatOfAllWithoutTheRest) {
   Database database = create();
   fill(database, 5);
   const SimilarityMatrix all = database.matrix();
@@ -157,7 +221,7 @@ TEST_F(SearchTest, MatrixOfSomeIsThatOfAllWithoutTheRest) {
   EXPECT_NE(message.find("'missing' is not in the database"), std::string::npos) << message;
 }
 
-TEST_F(SearchTest, MatrixCanBeCancelled) {
+TEST_P(SearchTest, MatrixCanBeCancelled) {
   Database database = create();
   fill(database, 5);
   Progress progress;

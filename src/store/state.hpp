@@ -1,10 +1,6 @@
 // What a Database holds; shared by the files that implement it.
 #pragma once
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <morsel/database.hpp>
@@ -12,47 +8,48 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "store/connection.hpp"
+#include "store/patience.hpp"
 
 namespace morsel {
 
 struct Database::State {
-  std::filesystem::path file;
-  SQLite::Database connection;
-  std::mutex mutex = {};  // guards all below `file`: a connection is not for several threads
-  std::shared_ptr<const SearchBlock> block = {};
-  std::int64_t block_token = 0;  // of the state that `block` was made from
-  std::shared_ptr<const std::vector<ShapeInfo>> shapes = {};
-  std::int64_t shapes_token = 0;  // of the state that `shapes` was read from
+  using Mode = store::Connection::Mode;
 
-  /// Calls work() alone and with SQLite's failures as morsel::Error.
+  std::unique_ptr<store::Connection> connection;
+  std::filesystem::path file = connection->name();
+  std::mutex mutex = {};  // guards all: a connection is not for several threads
+  std::shared_ptr<const SearchBlock> block = {};
+  store::StateMark block_mark = {};  // of the state that `block` was made from
+  std::shared_ptr<const std::vector<ShapeInfo>> shapes = {};
+  store::StateMark shapes_mark = {};  // of the state that `shapes` was read from
+
+  /// Calls work(connection) alone, again when the connection was lost meanwhile.
   template <class Work>
-  decltype(auto) exclusively(const Work& work) {
+  auto exclusively(const Work& work) {
     const std::lock_guard lock(mutex);
-    return store::guarded(file, work);
+    return store::patiently(*connection, [&] { return work(*connection); });
   }
 
   /// As exclusively(), in a transaction that is committed when work() returns.
   template <class Work>
   auto change(const Work& work) {
-    return exclusively([&] {
-      SQLite::Transaction transaction(connection, SQLite::TransactionBehavior::IMMEDIATE);
-      auto result = work();
-      transaction.commit();
-      return result;
-    });
+    return exclusively([&](auto& to) { return in_transaction(to, Mode::kWrite, work); });
   }
 
-  /// As exclusively(), on one state of the database whatever others write meanwhile.
+  /// As exclusively(), on one state of the database.
   template <class Work>
   auto look(const Work& work) {
-    return exclusively([&] {
-      const SQLite::Transaction transaction(connection);
-      return work();
-    });
+    return exclusively([&](auto& from) { return in_transaction(from, Mode::kRead, work); });
+  }
+
+  /// As change() and look(), for work that cannot be done again: it reads or writes a stream.
+  template <class Work>
+  auto once(Mode mode, const Work& work) {
+    const std::lock_guard lock(mutex);
+    return in_transaction(*connection, mode, work);
   }
 
   // search.cpp
@@ -61,8 +58,14 @@ struct Database::State {
                                                      const Signature& query, std::size_t top,
                                                      const MatchOptions& options);
   void drop_block();
-  /// What is wrong with the block of the current state. Within look().
-  std::vector<std::string> check_block();
+
+  template <class Work>
+  static auto in_transaction(store::Connection& connection, Mode mode, const Work& work) {
+    store::Transaction transaction(connection, mode);
+    auto result = work(connection);
+    transaction.commit();
+    return result;
+  }
 };
 
 }  // namespace morsel

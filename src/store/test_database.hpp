@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +15,8 @@
 #include "base/random.hpp"
 #include "base/test_folder.hpp"
 #include "base/test_shapes.hpp"
+#include "store/connection.hpp"
+#include "store/postgres.hpp"
 
 namespace morsel::store {
 
@@ -67,6 +70,41 @@ class DatabaseTest : public ::testing::Test {
   std::filesystem::path folder_ = temporary_.path();
   std::filesystem::path file_ = folder_ / "shapes.db";
 };
+
+/// The same test for a file and, where tests/postgres.py runs it, for a PostgreSQL server.
+class EachDatabaseTest : public DatabaseTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    if (!on_server()) return;
+    const char* const address = std::getenv("MORSEL_TEST_POSTGRES");
+    if (address == nullptr) GTEST_SKIP() << "run by tests/postgres.py";
+    place_ = address;
+    ::setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
+    // Made anew for each test.
+    open_postgres(place_, Access::kCreate)->run_script("DROP SCHEMA IF EXISTS morsel CASCADE");
+  }
+
+  [[nodiscard]] bool on_server() const { return std::string(GetParam()) == "server"; }
+
+  [[nodiscard]] Database open(Access access) const { return Database::open(place_, access); }
+  [[nodiscard]] Database create() const { return open(Access::kCreate); }
+
+  /// Statements past the program.
+  void run(const std::string& statements) const {
+    connect(place_, Access::kWrite)->run_script(statements);
+  }
+  [[nodiscard]] std::int64_t integer(const std::string& query) const {
+    return connect(place_, Access::kRead)->integer(query).value();
+  }
+
+  std::string place_ = file_.string();
+};
+
+/// Runs the tests of a class derived from EachDatabaseTest. The names after the first are left out
+/// by src/CMakeLists and run by tests/postgres.py.
+#define MORSEL_FOR_EACH_DATABASE(Class)                             \
+  INSTANTIATE_TEST_SUITE_P(File, Class, ::testing::Values("file")); \
+  INSTANTIATE_TEST_SUITE_P(Server, Class, ::testing::Values("server"))
 
 /// The message of the morsel::Error of `code` that `work` throws.
 template <class Work>
