@@ -30,7 +30,7 @@ _morsel() {
   case $command in
     segment)
       options="--labels --output --report --picture --html --parts --merge-ratio $segmenting $mesh" ;;
-    index) options="--database --class --tag $segmenting $mesh" ;;
+    index) options="--database --class --tag --shard --status $segmenting $mesh" ;;
     search) options="--database --top --json --picture $score $mesh" ;;
     compare) options="--database --json --picture $score $mesh" ;;
     matrix) options="--database --output --picture $score --threads --help" ;;
@@ -38,7 +38,8 @@ _morsel() {
     list) options='--database --class --tag --json --help' ;;
     show) options='--database --json --picture --thumbnail --help' ;;
     export) options='--database --output --help' ;;
-    remove | rename | import | check) options='--database --help' ;;
+    check) options='--database --repair --help' ;;
+    remove | rename | import) options='--database --help' ;;
     *) return ;;
   esac
 

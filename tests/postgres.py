@@ -68,7 +68,8 @@ class Server:
         return subprocess.run(
             [str(programs() / "psql"), "--no-psqlrc", "--quiet", "--tuples-only", "--no-align",
              "--set=ON_ERROR_STOP=1", "--command", statement, self.address(database)],
-            cwd="/", stdout=subprocess.PIPE, check=True, timeout=120).stdout.decode().strip()
+            cwd="/", stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL, check=True, timeout=120).stdout.decode().strip()
 
     def close(self):
         with contextlib.suppress(RuntimeError):  # stopped already

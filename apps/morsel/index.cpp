@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <morsel/database.hpp>
 #include <morsel/error.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "commands.hpp"
 #include "files.hpp"
 #include "options.hpp"
+#include "shard.hpp"
 #include "terminal.hpp"
 
 namespace morsel::cli {
@@ -28,15 +31,21 @@ constexpr const char* kExamples = R"(Examples:
   morsel index --database shapes.db models/ --class folder
   morsel index --database shapes.db models/ --class classes.csv
   find . -name '*.off' | morsel index --database shapes.db -
+  srun -n 64 morsel index --database postgresql://host/shapes models/
+  morsel index --database shapes.db models/ --status     what is done, failed and left
 
 A shape's name is its path as given. Files that did not change are skipped, so an interrupted run
-is simply run again. Files that fail are named at the end; the others are stored all the same.)";
+is simply run again. Files that fail are named at the end; the others are stored all the same.
+Started by srun, a Slurm job array, mpirun or a Kubernetes indexed job, each process takes its
+share of the files, as --shard would say.)";
 
 struct Arguments {
   std::filesystem::path database;
   std::vector<std::string> paths;
   std::string class_from;  // "folder", a CSV file, or empty
   std::vector<std::string> tags;
+  std::optional<Shard> shard;
+  bool status = false;
   IndexOptions options;
 };
 
@@ -82,14 +91,46 @@ void complain_of(const IndexFailure& failure) {
   complain(failure.reason.starts_with(path + ":") ? failure.reason : path + ": " + failure.reason);
 }
 
+// What is done of the files, failed and left, as of now.
+int show_status(const std::vector<ShapeFile>& files, const std::filesystem::path& place) {
+  const Database database = Database::open(place, Access::kRead);
+  const auto stored = database.shapes();
+  const std::map<std::string, std::string> reasons = database.failures();
+  std::vector<std::string> failed;
+  std::vector<std::string> left;
+  for (const ShapeFile& file : files) {
+    const auto reason = reasons.find(file.name);
+    const auto at = std::lower_bound(
+        stored->begin(), stored->end(), file.name,
+        [](const ShapeInfo& info, const std::string& name) { return info.name < name; });
+    if (reason != reasons.end()) {
+      failed.push_back(fmt::format("failed  {}: {}\n", file.name, reason->second));
+    } else if (at == stored->end() || at->name != file.name) {
+      left.push_back(fmt::format("left    {}\n", file.name));
+    }
+  }
+  say(fmt::format("{}: of {} files {} are done, {} failed, {} are left\n{}{}",
+                  database.file().string(), files.size(),
+                  files.size() - failed.size() - left.size(), failed.size(), left.size(),
+                  fmt::join(failed, ""), fmt::join(left, "")));
+  return kDone;
+}
+
 int run_index(const Arguments& arguments) {
-  const std::vector<ShapeFile> files = files_of(arguments);
+  std::vector<ShapeFile> files = files_of(arguments);
+  const bool whole = arguments.status && !arguments.shard;
+  const std::optional<Shard> shard = whole             ? std::nullopt
+                                     : arguments.shard ? arguments.shard
+                                                       : shard_of_engine();
+  if (shard) files = part_of(files, *shard);
+  if (arguments.status) return show_status(files, arguments.database);
   Database database = Database::open(arguments.database, Access::kCreate);
   Task task{Label(files.size())};
   const IndexReport report = index_files(database, files, arguments.options, &task.progress());
   task.begin_writing();
+  if (shard) say(fmt::format("shard {} of {}: ", shard->index, shard->count));
   say(fmt::format("{}: {} added, {} replaced, {} unchanged; {} shapes in all\n",
-                  arguments.database.string(), report.added, report.replaced, report.unchanged,
+                  database.file().string(), report.added, report.replaced, report.unchanged,
                   database.size()));
   if (report.without_inside > 0) {
     complain(fmt::format("note: {} of them bound no inside and are compared by their points alone",
@@ -120,6 +161,12 @@ void add_index(CLI::App& app, Command& chosen) {
   command->add_option("--tag", arguments->tags, "Tag the shapes; may be given again")
       ->option_text("TAG")
       ->allow_extra_args(false);
+  add(*command, "--shard", "I/N", "Only the Ith of N shares of the files, counted from 0",
+      [arguments](const std::string& name, const std::string& text) {
+        arguments->shard = read_shard(name, text);
+      });
+  command->add_flag("--status", arguments->status,
+                    "Store nothing; say which files are done, failed and left");
   add_method_options(*command, arguments->options.segment);
   add_mesh_options(*command, arguments->options.sample);
   command->footer(kExamples);

@@ -62,7 +62,7 @@ int run_matrix(const Arguments& arguments) {
   const SimilarityMatrix matrix =
       database.matrix(arguments.match, arguments.threads, &task.progress());
   if (matrix.shapes.empty()) {
-    throw Error(ErrorCode::kInput, arguments.database.string() + ": holds no shapes yet");
+    throw Error(ErrorCode::kInput, database.file().string() + ": holds no shapes yet");
   }
   task.begin_writing();
   write_text(arguments.output.path, csv_text(matrix));

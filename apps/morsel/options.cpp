@@ -129,10 +129,10 @@ CLI::Option* add_output(CLI::App& app, const std::string& names, const char* val
 }
 
 void add_database(CLI::App& app, std::filesystem::path& database, bool required) {
-  CLI::Option* const option = add(app, "--database", "DB", "The database file",
+  CLI::Option* const option = add(app, "--database", "DB", "A file, or postgresql://HOST/NAME",
                                   [&database](const std::string& name, const std::string& text) {
                                     if (text.empty())
-                                      throw CLI::ValidationError(name, "the file name is empty");
+                                      throw CLI::ValidationError(name, "the name is empty");
                                     database = text;
                                   });
   if (required) option->required()->option_text("DB (required)");

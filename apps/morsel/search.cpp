@@ -40,6 +40,7 @@ struct Arguments {
 };
 
 struct Answer {
+  std::string database;
   Subject query;
   std::vector<LookAlike> hits;
   std::vector<Subject> shapes;  // of the hits
@@ -64,7 +65,7 @@ std::string json_text(const Answer& answer, const Arguments& arguments) {
   using Json = nlohmann::ordered_json;
   Json json;
   json["query"] = answer.query.name;
-  json["database"] = arguments.database.string();
+  json["database"] = answer.database;
   json["method"] = arguments.match.method == Method::kPaper ? "paper" : "default";
   json["mode"] = arguments.match.mode == MatchMode::kArticulated ? "articulated" : "rigid";
   json["hits"] = Json::array();
@@ -85,6 +86,7 @@ std::string json_text(const Answer& answer, const Arguments& arguments) {
 Answer find_answer(const Arguments& arguments, const Progress& progress) {
   const Database database = Database::open(arguments.database, Access::kRead);
   Answer answer;
+  answer.database = database.file().string();
   answer.query = find_subject(arguments.query, &database, arguments.read, progress);
   answer.hits = database.search(answer.query.signature, arguments.top, arguments.match);
   if (!arguments.json && arguments.picture.path.empty()) return answer;

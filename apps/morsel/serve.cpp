@@ -55,7 +55,7 @@ int run_serve(Arguments arguments) {
   const Database database = Database::open(arguments.database, Access::kRead);
   Server server(database, arguments.options);
   say(fmt::format("{} shows {} ({} shapes); Ctrl-C stops\n", server.address(),
-                  arguments.database.string(), database.size()));
+                  database.file().string(), database.size()));
   serve_until_interrupted(server);
   return kDone;
 }

@@ -66,13 +66,13 @@ class IndexReport:
 
 
 class Database:
-    """Shapes in one file, under names: the same file as `morsel index` and `search` use.
+    """Shapes under names, in one file or on a server: the same as `morsel index` and `search` use.
 
     Every change is on disk as a whole when the call returns. Several programs and threads may read
     and write at once.
 
     Args:
-        path: the file.
+        path: the file, or the address of a PostgreSQL database, postgresql://HOST/NAME.
         mode: "c" to read and write, the file is made if it is not there; "w" to read and write,
             "r" to read one that is there.
 
@@ -80,7 +80,8 @@ class Database:
         FileNotFoundError: there is no such file, or no such folder.
         morsel.Error: it is no database of morsel, of a newer version, or damaged. So may all
             methods.
-        OSError: it cannot be written, or another program has kept it locked for a minute.
+        OSError: it cannot be written, another program has kept it locked for a minute, or the server
+            cannot be reached.
 
     >>> with morsel.Database("shapes.db") as database:
     ...     database.add("two balls", shape, class_name="toy")
@@ -91,11 +92,14 @@ class Database:
 
     def __init__(self, path: Path, mode: str = "c") -> None:
         text = os.fspath(path)
-        if "://" in text:
-            raise ValueError(f"{text}: is an address; only files so far, give the path of one")
+        server = text.startswith(("postgresql://", "postgres://"))
+        if "://" in text and not server:
+            raise ValueError(f"{text}: give the path of a file, or postgresql://HOST/NAME")
         if mode not in ("r", "w", "c"):
             raise ValueError(f"mode is {mode!r}; it must be 'r', 'w' or 'c'")
-        if mode != "c":
+        if server:
+            pass
+        elif mode != "c":
             existing(text)
         elif not os.path.exists(text):
             os.stat(os.path.dirname(text) or ".")

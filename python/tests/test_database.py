@@ -105,9 +105,10 @@ def test_open():
         morsel.Database("none/shapes.db")
     with pytest.raises(ValueError, match="mode is 'x'"):
         morsel.Database("shapes.db", mode="x")
-    for address in ("http://localhost:8000", "postgresql://localhost/shapes"):
-        with pytest.raises(ValueError, match="is an address; only files so far"):
-            morsel.Database(address)
+    with pytest.raises(ValueError, match="give the path of a file, or postgresql://"):
+        morsel.Database("http://localhost:8000")
+    with pytest.raises(OSError, match="postgresql://me@localhost:1/shapes: cannot connect"):
+        morsel.Database("postgresql://me:secret@localhost:1/shapes")
     with open("text.db", "w", encoding="ascii") as file:
         file.write("text, and more than an SQLite header has bytes. " * 10)
     with pytest.raises(morsel.Error, match="text.db: is not a database of morsel"):

@@ -182,6 +182,57 @@ TEST_P(EachDatabaseTest, NewerTablesAreRefused) {
   }
 }
 
+// What made tables of version 3 of those of version 2, undone.
+constexpr const char* kBackToVersion2 = R"(
+DROP TRIGGER shape_added; DROP TRIGGER shape_changed; DROP TRIGGER shape_removed;
+DROP TRIGGER signature_changed; DROP TABLE state; DROP TABLE removed; DROP TABLE failures;
+DROP INDEX shapes_by_change; ALTER TABLE shapes DROP COLUMN changed;
+CREATE TABLE state (id INTEGER PRIMARY KEY CHECK (id = 1), token INTEGER NOT NULL) STRICT;
+INSERT INTO state VALUES (1, random());
+CREATE TRIGGER shape_added AFTER INSERT ON shapes BEGIN UPDATE state SET token = random(); END;
+CREATE TRIGGER shape_changed AFTER UPDATE ON shapes BEGIN UPDATE state SET token = random(); END;
+CREATE TRIGGER shape_removed AFTER DELETE ON shapes BEGIN UPDATE state SET token = random(); END;
+CREATE TRIGGER signature_changed AFTER UPDATE ON signatures
+  BEGIN UPDATE state SET token = random(); END;
+PRAGMA user_version = 2;
+)";
+
+TEST_F(DatabaseTest, OlderTablesAreBroughtUpToDate) {
+  const ShapeData one = dumbbell_data(1);
+  const ShapeData two = dumbbell_data(2);
+  {
+    Database database = create();
+    database.put({"a", "cat", {"x"}, "a.off"}, one);
+    database.put({"b", {}, {}, {}}, two);
+    database.put({"c", {}, {}, {}}, one);
+  }
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec(kBackToVersion2);
+  write(folder_ / "shapes.db-0123456789abcdef.block", "of version 2");
+  const std::string message =
+      message_of(ErrorCode::kInput, [&] { (void)Database::open(file_, Access::kRead); });
+  EXPECT_TRUE(holds(message, "by an older morsel")) << message;
+  Database database = Database::open(file_, Access::kWrite);
+  EXPECT_EQ(database.size(), 3U);
+  EXPECT_EQ(database.check(), std::vector<std::string>{});
+  EXPECT_EQ(database.search(two.signature, 1).at(0).info.name, "b");
+  EXPECT_EQ(database.find("a"), (ShapeInfo{"a", "cat", {"x"}, "a.off"}));
+  database.remove(std::vector<std::string>{"b"});
+  EXPECT_EQ(database.search(two.signature, 5).size(), 2U);
+  EXPECT_EQ(database.check(), std::vector<std::string>{});
+  EXPECT_EQ(names_in_folder().size(), 4U);  // the file, its log, one block
+}
+
+TEST_F(DatabaseTest, PasswordsAreNotNamed) {
+  EXPECT_EQ(without_password("postgresql://me:secret@host:5/db?a=b"),
+            "postgresql://me@host:5/db?a=b");
+  EXPECT_EQ(without_password("postgresql://me:se@cret@host/db"), "postgresql://me@host/db");
+  EXPECT_EQ(without_password("postgresql:///db?password=secret&host=/a:b@c"),
+            "postgresql:///db?password=***&host=/a:b@c");
+  for (const char* plain : {"postgresql://", "postgresql://host:5/db", "postgres://me@host"}) {
+    EXPECT_EQ(without_password(plain), plain);
+  }
+}
+
 TEST_F(DatabaseTest, TablesOfBeforeTheFirstReleaseAreRefused) {
   create().put({"a", {}, {}, {}}, dumbbell_data());
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 1");

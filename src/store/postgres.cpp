@@ -55,9 +55,10 @@ constexpr std::array kMeanings{
             "the database is damaged; restore it from an export or a copy"},
 };
 
-// The server went away or is about to, or several who wait for each other were told to try again.
+// The server went away or is about to, which libpq says without a state, or several who wait for
+// each other were told to try again.
 bool is_lost(const PGconn* connection, std::string_view state) {
-  return PQstatus(connection) == CONNECTION_BAD || state.starts_with("08") ||
+  return state.empty() || PQstatus(connection) == CONNECTION_BAD || state.starts_with("08") ||
          state.starts_with("57P") || state.starts_with("40");
 }
 

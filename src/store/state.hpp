@@ -26,7 +26,8 @@ struct Database::State {
   std::shared_ptr<const std::vector<ShapeInfo>> shapes = {};
   store::StateMark shapes_mark = {};  // of the state that `shapes` was read from
 
-  /// Calls work(connection) alone, again when the connection was lost meanwhile.
+  /// Calls work(connection) alone, again when the connection was lost meanwhile. What it had done
+  /// may have been committed before: then it finds it done.
   template <class Work>
   auto exclusively(const Work& work) {
     const std::lock_guard lock(mutex);
