@@ -186,7 +186,9 @@ std::shared_ptr<const SearchBlock> local_block(Connection& connection, const Sta
   for (const Block& block : blocks_of(connection)) {
     if (block.path.filename() != path.filename()) fs::remove(block.path, ignored);
   }
-  return std::make_shared<const SearchBlock>(SearchBlock::open(path));
+  // Gone already when another program removed it for that of a later state.
+  auto block = open_block(path);
+  return block ? std::make_shared<const SearchBlock>(*std::move(block)) : nullptr;
 }
 
 void remove_block(const Connection& connection, const StateMark& mark) {

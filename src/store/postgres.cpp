@@ -206,10 +206,15 @@ class Postgres final : public Connection {
 
   // Writers take turns, so that the numbers of changes become visible in their order.
   void begin(Mode mode) override {
-    run_script(mode == Mode::kRead ? "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"
-                                   : fmt::format("BEGIN ISOLATION LEVEL READ COMMITTED; SELECT "
-                                                 "pg_advisory_xact_lock({})",
-                                                 kApplicationId));
+    try {
+      run_script(mode == Mode::kRead ? "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"
+                                     : fmt::format("BEGIN ISOLATION LEVEL READ COMMITTED; SELECT "
+                                                   "pg_advisory_xact_lock({})",
+                                                   kApplicationId));
+    } catch (...) {
+      roll_back();
+      throw;
+    }
   }
   void commit() override { run_script("COMMIT"); }
   void roll_back() noexcept override { PQclear(PQexec(link_.get(), "ROLLBACK")); }
