@@ -26,18 +26,6 @@ Box grown_box(std::span<const Vec3> points) {
   return {.low = box.low - margin, .high = box.high + margin};
 }
 
-void add_outliers(Cloud& cloud, const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
-  const auto [low, high] = grown_box(mesh.vertices);
-  const Vec3 size = high - low;
-  Random random(seed ^ kOutlierStream);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = low.x + random.uniform() * size.x;
-    const double y = low.y + random.uniform() * size.y;
-    const double z = low.z + random.uniform() * size.z;
-    cloud.points.push_back({x, y, z});
-  }
-}
-
 // A scan's gap: the samples in a ball around one of them are missing.
 void cut_hole(SurfaceSample& sample, const TriangleMesh& mesh, double radius, std::uint64_t seed) {
   Random random(seed ^ kHoleStream);
@@ -77,6 +65,21 @@ std::uint64_t seed_of_model(std::uint64_t seed, int id) {
   return Random(seed ^ (static_cast<std::uint64_t>(id) * 0x9e3779b97f4a7c15ULL)).next();
 }
 
+std::vector<Vec3> outliers_around(std::span<const Vec3> points, std::size_t count,
+                                  std::uint64_t seed) {
+  const auto [low, high] = grown_box(points);
+  const Vec3 size = high - low;
+  Random random(seed ^ kOutlierStream);
+  std::vector<Vec3> outliers;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = low.x + random.uniform() * size.x;
+    const double y = low.y + random.uniform() * size.y;
+    const double z = low.z + random.uniform() * size.z;
+    outliers.push_back({x, y, z});
+  }
+  return outliers;
+}
+
 Cloud sample_cloud(const TriangleMesh& mesh, int id, const CloudOptions& options) {
   options.check();
   const std::uint64_t seed = seed_of_model(options.seed, id);
@@ -84,8 +87,10 @@ Cloud sample_cloud(const TriangleMesh& mesh, int id, const CloudOptions& options
       sample_surface(mesh, {.count = options.points, .noise = options.noise, .seed = seed});
   if (options.hole > 0.0) cut_hole(sample, mesh, options.hole, seed);
   Cloud cloud{.points = std::move(sample.points), .triangle = std::move(sample.triangle)};
-  const double outliers = std::round(options.outliers * static_cast<double>(options.points));
-  add_outliers(cloud, mesh, static_cast<std::size_t>(outliers), seed);
+  const double count = std::round(options.outliers * static_cast<double>(options.points));
+  const std::vector<Vec3> outliers =
+      outliers_around(mesh.vertices, static_cast<std::size_t>(count), seed);
+  cloud.points.insert(cloud.points.end(), outliers.begin(), outliers.end());
   return cloud;
 }
 

@@ -33,6 +33,10 @@ struct Cloud {
 /// Models of one run get unrelated seeds, each the same in every run.
 [[nodiscard]] std::uint64_t seed_of_model(std::uint64_t seed, int id);
 
+/// Uniform in the points' bounding box grown by half about its middle.
+[[nodiscard]] std::vector<Vec3> outliers_around(std::span<const Vec3> points, std::size_t count,
+                                                std::uint64_t seed);
+
 [[nodiscard]] Cloud sample_cloud(const TriangleMesh& mesh, int id, const CloudOptions& options);
 
 /// Where the samples of `from` lie on `to`, the same triangles in another posture.

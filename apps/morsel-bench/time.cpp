@@ -14,7 +14,7 @@
 
 #include "base/threads.hpp"
 #include "commands.hpp"
-#include "shape.hpp"
+#include "solids/solid.hpp"
 #include "stopwatch.hpp"
 #include "summary.hpp"
 
@@ -154,8 +154,8 @@ std::vector<Input> make_inputs(const Options& options) {
   if (!inputs.empty()) return inputs;
   for (const double noise : {0.0, 0.003}) {
     Input input{fmt::format("bent beast of capsules, noise {:g}", noise),
-                sample_union(beast(), {.count = options.points, .noise = noise, .seed = 1})};
-    bend(input.points);
+                solids::sample(solids::beast(), {.count = options.points, .noise = noise}).points};
+    solids::bend(input.points);
     inputs.push_back(std::move(input));
   }
   return inputs;
