@@ -1,6 +1,6 @@
 # The two commands of the README are `make demo` and `make test`; each installs what it needs.
 .DEFAULT_GOAL := help
-.PHONY: help demo test sanitize fuzz bench lint docs format install package clean
+.PHONY: help demo test sanitize fuzz bench reproduce lint docs format install package clean
 export INPUT ARGS
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
@@ -24,6 +24,9 @@ bench:  ## Run the benchmarks: ARGS="segmentation --help"
 	@cmake --preset release
 	@cmake --build --preset release --target morsel_bench
 	@build/release/apps/morsel-bench/morsel-bench $(or $(ARGS),--help)
+
+reproduce:  ## Measure all that the paper shows: out/reproduction/index.html; ARGS="--psb DIR"
+	@scripts/reproduce.sh
 
 lint:  ## Check formatting, layers, shell scripts and clang-tidy
 	@scripts/lint.sh

@@ -67,11 +67,11 @@ Deviation deviation_of(const Cut& a, const Cut& b) {
 
 ordered_json invariance(const Study& study) {
   const std::size_t shapes = study.amount(20, 2);
-  const std::size_t transforms = study.amount(50, 3);
+  const std::size_t transforms = study.amount(50, 2);
   std::vector<std::vector<Deviation>> all(shapes);
   parallel_rows(shapes, 0, [&](std::size_t i) {
     const Shape shape = make_shape({.family = i % solids::family_names().size(), .number = i},
-                                   {.points = study.amount(3000, 1200)});
+                                   {.points = study.amount(3000, 1000)});
     const Cut original = cut_of(shape.points);
     for (std::size_t k = 0; k < transforms; ++k) {
       all[i].push_back(deviation_of(original, cut_of(bench::posed(shape.points, 100 * i + k))));
@@ -133,7 +133,7 @@ ordered_json query_times(const Study& study, const Collection& generated) {
 
 // The same figure in two poses, beside two figures of one class.
 ordered_json poses(const Study& study) {
-  const Sampling sampling{.points = study.amount(8000, 1200)};
+  const Sampling sampling{.points = study.shape_points()};
   Sampling other = sampling;
   other.seed = 2;
   std::vector<Shape> shapes;  // in turn: a figure, its other pose, another figure of its class
@@ -175,7 +175,7 @@ ordered_json open_surfaces(const Study& study) {
                            "meshes/pig.off", "points_3/hippo1.ply"}) {
     const std::filesystem::path file = study.options.data / name;
     if (study.options.data.empty() || !exists(file)) continue;
-    const std::vector<Vec3> points = read_points(file, {.count = study.amount(20000, 2500)}).points;
+    const std::vector<Vec3> points = read_points(file, {.count = study.amount(20000, 2000)}).points;
     const Segmentation ours = segment(points, default_options());
     const Segmentation rules = segment(points, paper_options());
     json.push_back({{"file", file.filename().string()},
@@ -194,7 +194,7 @@ ordered_json repeatability(const Study& study) {
   std::size_t same = 0;
   const std::size_t shapes = study.amount(17, 2);
   for (std::size_t i = 0; i < shapes; ++i) {
-    const Shape shape = make_shape({.family = i}, {.points = study.amount(4000, 1200)});
+    const Shape shape = make_shape({.family = i}, {.points = study.amount(4000, 1000)});
     SegmentOptions all_threads = default_options();
     all_threads.threads = all_threads.denoise.threads = 0;
     std::vector<Vec3> backwards(shape.points.rbegin(), shape.points.rend());
@@ -229,14 +229,14 @@ ordered_json sizes(const Collection& generated) {
 void add_claims(Study& study, const Collection& generated) {
   ordered_json& json = study.figures["claims"];
   json["sizes"] = sizes(generated);
-  say("claims: repeatability, invariance");
+  say("  repeatability, invariance");
   json["repeatability"] = repeatability(study);
   json["invariance"] = invariance(study);
-  say("claims: noise and outliers");
+  say("  noise and outliers");
   json["curves"] = disturbance_curves(study, generated);
-  say("claims: the paper's two numbers");
+  say("  the paper's two numbers");
   json["parameters"] = parameter_curves(study);
-  say("claims: points of a signature, queries, poses, open surfaces");
+  say("  points of a signature, queries, poses, open surfaces");
   json["points"] = point_curve(study, generated);
   json["queries"] = query_times(study, generated);
   json["poses"] = poses(study);

@@ -88,7 +88,7 @@ Errors errors_of(const std::vector<Shape>& shapes, const SegmentOptions& options
 
 ordered_json ratio_curve(const std::vector<Shape>& shapes, double angle, bool quick) {
   ordered_json curve = {{"angle", angle}};
-  for (const double rho : {0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0}) {
+  for (const double rho : {0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0}) {
     if (quick && rho != 0.5 && rho != 3.0) continue;
     SegmentOptions options = paper_options();
     options.interior.big_ball_ratio = rho;
@@ -139,7 +139,7 @@ void keep_heaviest(Signature& signature, std::size_t count) {
 
 ordered_json disturbance_curves(const Study& study, const Collection& generated) {
   const std::size_t members = study.amount(3, 1);
-  const std::size_t points = study.amount(8000, 1200);
+  const std::size_t points = study.shape_points();
   ordered_json json;
   for (const double noise : {0.0, 0.0025, 0.005, 0.01, 0.015, 0.02}) {
     if (study.options.quick && noise != 0.0 && noise != 0.005) continue;
@@ -156,10 +156,11 @@ ordered_json disturbance_curves(const Study& study, const Collection& generated)
 
 ordered_json parameter_curves(const Study& study) {
   const std::vector<Shape> shapes =
-      first_members(study.amount(2, 1), {.points = study.amount(8000, 1200), .seed = kOtherSample});
+      first_members(study.amount(2, 1), {.points = study.shape_points(), .seed = kOtherSample});
   const bool quick = study.options.quick;
   ordered_json json = {{"shapes", shapes.size()}};
   for (const double angle : {10.0, 20.0, 60.0}) {
+    if (quick && angle != 10.0) continue;
     json["rho"].push_back(ratio_curve(shapes, angle, quick));
   }
   json["default"] = errors_of(shapes, default_options()).mean;

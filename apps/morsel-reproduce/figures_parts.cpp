@@ -91,7 +91,7 @@ std::string file_name(const std::string& name) {
 }
 
 std::vector<Vec3> points_of(const Study& study, const Source& source, double noise) {
-  const std::size_t count = study.amount(kPoints, 2500);
+  const std::size_t count = study.amount(kPoints, 2000);
   if (source.file.empty()) {
     return sample_member(source.member, {.count = count, .noise = noise}).points;
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <morsel/error.hpp>
 
 #include "plane/drawing.hpp"
 #include "sections.hpp"
@@ -12,6 +13,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t kPoints = 700;
+constexpr std::size_t kSaddlePoints = 220;
 constexpr double kNoise = 0.012;
 
 // A beast seen from its side.
@@ -24,6 +26,23 @@ const std::vector<plane::Sausage>& beast() {
       {{-1.0, -0.2}, {-1.15, -1.3}, 0.17}, {{-1.4, 0.1}, {-2.2, 0.6}, 0.13},  // tail
   };
   return beast;
+}
+
+// Two disks that overlap: two maxima, and what lies between them.
+ordered_json saddle_json(const Study& study, const plane::Rules& rules) {
+  const std::vector<plane::Sausage> disks{{{-0.85, 0.0}, {-0.85, 0.0}, 1.0},
+                                          {{0.8, 0.1}, {0.8, 0.1}, 0.8}};
+  const plane::Shape shape =
+      plane::find_parts(plane::sample_outline(disks, kSaddlePoints, kNoise, 3), rules);
+  const auto saddle = plane::clearest_saddle(shape);
+  if (!saddle) throw Error(ErrorCode::kInternal, "two disks in the plane have no saddle");
+  const auto& [a, b] = saddle->maxima;
+  const plane::Point& one = shape.points[saddle->ends[0]];
+  const plane::Point& other = shape.points[saddle->ends[1]];
+  return {{"picture", study.keep("plane-saddle", plane::draw_saddle(shape, *saddle))},
+          {"points", shape.points.size()},
+          {"radius", 0.5 * plane::distance(one, other)},
+          {"maxima", {shape.triangles[a].radius, shape.triangles[b].radius}}};
 }
 
 }  // namespace
@@ -46,14 +65,7 @@ void add_plane(Study& study) {
   for (const std::string& svg : plane::draw_steps(shape)) {
     json["steps"].push_back(study.keep(fmt::format("plane-{}", ++number), svg));
   }
-  if (const auto saddle = plane::clearest_saddle(shape)) {
-    const auto& [a, b] = saddle->maxima;
-    const plane::Point& one = shape.points[saddle->ends[0]];
-    const plane::Point& other = shape.points[saddle->ends[1]];
-    json["saddle"] = {{"picture", study.keep("plane-saddle", plane::draw_saddle(shape, *saddle))},
-                      {"radius", 0.5 * plane::distance(one, other)},
-                      {"maxima", {shape.triangles[a].radius, shape.triangles[b].radius}}};
-  }
+  json["saddle"] = saddle_json(study, rules);
   study.figures["plane"] = std::move(json);
 }
 

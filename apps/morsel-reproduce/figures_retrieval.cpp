@@ -181,11 +181,11 @@ ordered_json d2_figure(const Study& study, const std::string& name, const Collec
 
 Collection make_generated(const Study& study) {
   const std::size_t families = solids::family_names().size();
-  const std::size_t members = study.amount(12, 3);
+  const std::size_t members = study.amount(12, 2);
   std::vector<Shape> shapes(families * members);
   parallel_rows(shapes.size(), 0, [&](std::size_t i) {
     shapes[i] = make_shape({.family = i / members, .number = i % members},
-                           {.points = study.amount(8000, 1200)});
+                           {.points = study.shape_points()});
   });
   return make_collection(std::move(shapes));
 }
@@ -204,7 +204,7 @@ Collection make_psb(const Study& study) {
   for (auto& [name, members] : classes) largest.push_back(std::move(members));
   std::ranges::stable_sort(largest, std::ranges::greater{}, [](const auto& c) { return c.size(); });
   largest.resize(std::min(largest.size(), solids::family_names().size()));
-  const std::size_t members = study.amount(12, 3);
+  const std::size_t members = study.amount(12, 2);
   std::vector<bench::ClassedShape> files;
   for (auto& c : largest) {
     c.resize(std::min(c.size(), members));
@@ -219,7 +219,7 @@ Collection make_psb(const Study& study) {
   parallel_rows(files.size(), 0, [&](std::size_t i) {
     const bench::Cloud cloud =
         bench::sample_cloud(read_mesh(files[i].path), static_cast<int>(i),
-                            {.points = study.amount(8000, 1200), .noise = 0.002});
+                            {.points = study.shape_points(), .noise = 0.002});
     shapes[i] = {
         .name = files[i].name, .category = files[i].category, .points = cloud.points, .truth = {}};
   });

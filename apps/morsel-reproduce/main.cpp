@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <morsel/morsel.hpp>
 
 #include "sections.hpp"
@@ -28,25 +29,27 @@ void run(const Options& options) {
   study.figures = {{"program", "morsel-reproduce"}, {"version", version()},
                    {"date", bench::utc_now()},      {"quick", options.quick},
                    {"processor", processor()},      {"cores", tbb::info::default_concurrency()}};
-  say("times");
-  add_times(study);
-  say("figures 1 and 2: the steps in the plane");
-  add_plane(study);
-  say("figures 3 and 4: parts of real shapes");
-  add_parts(study);
-  say("figures 5 to 7: generated shapes in seventeen classes");
-  const Collection generated = make_generated(study);
-  add_retrieval(study, "generated", generated);
+  const auto section = [&](const char* title, const std::function<void()>& add) {
+    say(title);
+    add();
+    bench::write_json(options.out / "figures.json", study.figures);  // what there is so far
+  };
+  section("times", [&] { add_times(study); });
+  section("figures 1 and 2: the steps in the plane", [&] { add_plane(study); });
+  section("figures 3 and 4: parts of real shapes", [&] { add_parts(study); });
+  Collection generated;
+  section("figures 5 to 7: generated shapes in seventeen classes", [&] {
+    generated = make_generated(study);
+    add_retrieval(study, "generated", generated);
+  });
+  section("claims", [&] { add_claims(study, generated); });
   if (!options.psb.empty()) {
-    say("figures 5 to 7: Princeton Shape Benchmark");
-    add_retrieval(study, "psb", make_psb(study));
+    section("figures 5 to 7: Princeton Shape Benchmark",
+            [&] { add_retrieval(study, "psb", make_psb(study)); });
   }
-  add_claims(study, generated);
   if (!options.segmentation.empty()) {
-    say("claims: people's segmentations");
-    add_annotated(study);
+    section("claims: people's segmentations", [&] { add_annotated(study); });
   }
-  bench::write_json(options.out / "figures.json", study.figures);
   say("done: " + (options.out / "figures.json").string());
 }
 

@@ -68,8 +68,8 @@ ordered_json level_json(const std::vector<Annotated>& all, double noise, double 
 }  // namespace
 
 void add_annotated(Study& study) {
-  const auto all = read_annotated(study.options.segmentation, study.amount(3, 1));
-  const std::size_t points = study.amount(20000, 2500);
+  const auto all = read_annotated(study.options.segmentation, study.amount(2, 1));
+  const std::size_t points = study.amount(10000, 2000);
   ordered_json json = {{"models", all.size()}, {"points", points}};
   for (const double noise : {0.0, 0.003, 0.005, 0.01, 0.02}) {
     json["noise"].push_back(level_json(all, noise, 0.0, points));

@@ -28,6 +28,8 @@ struct Study {
   [[nodiscard]] std::size_t amount(std::size_t full, std::size_t quick) const {
     return options.quick ? quick : full;
   }
+  /// Points of a generated shape or one of a collection.
+  [[nodiscard]] std::size_t shape_points() const { return amount(6000, 1000); }
   /// Writes a picture and returns its path below the folder of results, for the page.
   [[nodiscard]] std::string keep(const std::string& name, const Image& image) const;
   [[nodiscard]] std::string keep(const std::string& name, const std::string& svg) const;

@@ -75,27 +75,26 @@ def runs_of(values):
 
 def matrix(categories, best):
     """Rows are queries; the best hits of each are shaded, those of its class in another colour."""
-    cell, left, top = 4, 132, 118
-    count = len(categories)
-    side = cell * count
+    side, left, top = 816, 132, 118
+    cell = side / len(categories)
     parts = [f'<svg class="chart matrix" viewBox="0 0 {left + side + 4} {top + side + 4}" role="img" '
              'aria-label="similarity matrix">',
              f'<rect x="{left}" y="{top}" width="{side}" height="{side}" fill="var(--panel)"/>']
     for name, first, length in runs_of(categories):
         at, size = cell * first, cell * length
-        parts.append(f'<rect x="{left + at}" y="{top + at}" width="{size}" height="{size}" '
+        parts.append(f'<rect x="{left + at:.1f}" y="{top + at:.1f}" width="{size:.1f}" height="{size:.1f}" '
                      'fill="var(--accent)" fill-opacity="0.13"/>')
         middle = at + size / 2
         label = html.escape(name)
         parts.append(f'<text x="{left - 8}" y="{top + middle + 5:.1f}" text-anchor="end">{label}</text>')
         parts.append(f'<text transform="translate({left + middle + 4:.1f} {top - 8}) rotate(-90)">{label}</text>')
         for line in (at, at + size):
-            parts.append(f'<path class="axis" d="M{left} {top + line}h{side}M{left + line} {top}v{side}" '
+            parts.append(f'<path class="axis" d="M{left} {top + line:.1f}h{side}M{left + line:.1f} {top}v{side}" '
                          'stroke-width="0.7" fill="none"/>')
     good, bad = [], []
     for row, hits in enumerate(best):
         for hit in hits:
             same = categories[row] == categories[hit]
-            (good if same else bad).append(f"M{left + cell * hit} {top + cell * row}h{cell}v{cell}h-{cell}z")
+            (good if same else bad).append(f"M{left + cell * hit:.1f} {top + cell * row:.1f}h{cell:.1f}v{cell:.1f}h-{cell:.1f}z")
     parts.append(f'<path d="{"".join(good)}" fill="var(--s1)"/><path d="{"".join(bad)}" fill="var(--s2)"/></svg>')
     return f'<div class="scroll">{"".join(parts)}</div>'
