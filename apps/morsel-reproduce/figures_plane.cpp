@@ -13,8 +13,9 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t kPoints = 700;
-constexpr std::size_t kSaddlePoints = 220;
 constexpr double kNoise = 0.012;
+constexpr std::size_t kSaddlePoints = 300;
+constexpr double kSaddleNoise = 0.008;
 
 // A beast seen from its side.
 const std::vector<plane::Sausage>& beast() {
@@ -33,7 +34,7 @@ ordered_json saddle_json(const Study& study, const plane::Rules& rules) {
   const std::vector<plane::Sausage> disks{{{-0.85, 0.0}, {-0.85, 0.0}, 1.0},
                                           {{0.8, 0.1}, {0.8, 0.1}, 0.8}};
   const plane::Shape shape =
-      plane::find_parts(plane::sample_outline(disks, kSaddlePoints, kNoise, 3), rules);
+      plane::find_parts(plane::sample_outline(disks, kSaddlePoints, kSaddleNoise, 1), rules);
   const auto saddle = plane::clearest_saddle(shape);
   if (!saddle) throw Error(ErrorCode::kInternal, "two disks in the plane have no saddle");
   const auto& [a, b] = saddle->maxima;
@@ -41,6 +42,7 @@ ordered_json saddle_json(const Study& study, const plane::Rules& rules) {
   const plane::Point& other = shape.points[saddle->ends[1]];
   return {{"picture", study.keep("plane-saddle", plane::draw_saddle(shape, *saddle))},
           {"points", shape.points.size()},
+          {"noise", kSaddleNoise},
           {"radius", 0.5 * plane::distance(one, other)},
           {"maxima", {shape.triangles[a].radius, shape.triangles[b].radius}}};
 }
