@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/box.hpp"
 #include "base/random.hpp"
@@ -71,7 +72,7 @@ ordered_json invariance(const Study& study) {
   std::vector<std::vector<Deviation>> all(shapes);
   parallel_rows(shapes, 0, [&](std::size_t i) {
     const Shape shape = make_shape({.family = i % solids::family_names().size(), .number = i},
-                                   {.points = study.amount(3000, 1000)});
+                                   {.points = study.amount(2000, 800)});
     const Cut original = cut_of(shape.points);
     for (std::size_t k = 0; k < transforms; ++k) {
       all[i].push_back(deviation_of(original, cut_of(bench::posed(shape.points, 100 * i + k))));
@@ -194,7 +195,7 @@ ordered_json repeatability(const Study& study) {
   std::size_t same = 0;
   const std::size_t shapes = study.amount(17, 2);
   for (std::size_t i = 0; i < shapes; ++i) {
-    const Shape shape = make_shape({.family = i}, {.points = study.amount(4000, 1000)});
+    const Shape shape = make_shape({.family = i}, {.points = study.amount(4000, 800)});
     SegmentOptions all_threads = default_options();
     all_threads.threads = all_threads.denoise.threads = 0;
     std::vector<Vec3> backwards(shape.points.rbegin(), shape.points.rend());
@@ -227,20 +228,23 @@ ordered_json sizes(const Collection& generated) {
 }  // namespace
 
 void add_claims(Study& study, const Collection& generated) {
-  ordered_json& json = study.figures["claims"];
-  json["sizes"] = sizes(generated);
+  const auto add = [&study](const char* name, ordered_json value) {
+    study.figures["claims"][name] = std::move(value);
+    study.save();
+  };
+  add("sizes", sizes(generated));
   say("  repeatability, invariance");
-  json["repeatability"] = repeatability(study);
-  json["invariance"] = invariance(study);
+  add("repeatability", repeatability(study));
+  add("invariance", invariance(study));
   say("  noise and outliers");
-  json["curves"] = disturbance_curves(study, generated);
+  add("curves", disturbance_curves(study, generated));
   say("  the paper's two numbers");
-  json["parameters"] = parameter_curves(study);
+  add("parameters", parameter_curves(study));
   say("  points of a signature, queries, poses, open surfaces");
-  json["points"] = point_curve(study, generated);
-  json["queries"] = query_times(study, generated);
-  json["poses"] = poses(study);
-  json["open"] = open_surfaces(study);
+  add("points", point_curve(study, generated));
+  add("queries", query_times(study, generated));
+  add("poses", poses(study));
+  add("open", open_surfaces(study));
 }
 
 }  // namespace morsel::reproduce

@@ -138,7 +138,7 @@ void keep_heaviest(Signature& signature, std::size_t count) {
 }  // namespace
 
 ordered_json disturbance_curves(const Study& study, const Collection& generated) {
-  const std::size_t members = study.amount(3, 1);
+  const std::size_t members = study.amount(2, 1);
   const std::size_t points = study.shape_points();
   ordered_json json;
   for (const double noise : {0.0, 0.0025, 0.005, 0.01, 0.015, 0.02}) {
@@ -146,7 +146,7 @@ ordered_json disturbance_curves(const Study& study, const Collection& generated)
     json["noise"].push_back(
         level_json({.points = points, .noise = noise, .seed = kOtherSample}, generated, members));
   }
-  for (const double outliers : {0.0, 0.01, 0.03, 0.05, 0.1}) {
+  for (const double outliers : {0.0, 0.01, 0.05, 0.1}) {
     if (study.options.quick && outliers != 0.0 && outliers != 0.05) continue;
     json["outliers"].push_back(level_json(
         {.points = points, .outliers = outliers, .seed = kOtherSample}, generated, members));
@@ -159,7 +159,7 @@ ordered_json parameter_curves(const Study& study) {
       first_members(study.amount(2, 1), {.points = study.shape_points(), .seed = kOtherSample});
   const bool quick = study.options.quick;
   ordered_json json = {{"shapes", shapes.size()}};
-  for (const double angle : {10.0, 20.0, 60.0}) {
+  for (const double angle : {10.0, 60.0}) {
     if (quick && angle != 10.0) continue;
     json["rho"].push_back(ratio_curve(shapes, angle, quick));
   }

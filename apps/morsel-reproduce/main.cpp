@@ -32,7 +32,7 @@ void run(const Options& options) {
   const auto section = [&](const char* title, const std::function<void()>& add) {
     say(title);
     add();
-    bench::write_json(options.out / "figures.json", study.figures);  // what there is so far
+    study.save();
   };
   section("times", [&] { add_times(study); });
   section("figures 1 and 2: the steps in the plane", [&] { add_plane(study); });

@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.hpp"
 #include "stopwatch.hpp"
+#include "summary.hpp"
 
 namespace morsel::reproduce {
 
@@ -22,6 +23,8 @@ std::string Study::keep(const std::string& name, const std::string& svg) const {
   file.commit();
   return path;
 }
+
+void Study::save() const { bench::write_json(options.out / "figures.json", figures); }
 
 void say(const std::string& what) {
   static const bench::Stopwatch since_start;

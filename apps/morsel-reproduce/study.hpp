@@ -29,7 +29,9 @@ struct Study {
     return options.quick ? quick : full;
   }
   /// Points of a generated shape or one of a collection.
-  [[nodiscard]] std::size_t shape_points() const { return amount(6000, 1000); }
+  [[nodiscard]] std::size_t shape_points() const { return amount(6000, 800); }
+  /// Writes figures.json: what there is so far.
+  void save() const;
   /// Writes a picture and returns its path below the folder of results, for the page.
   [[nodiscard]] std::string keep(const std::string& name, const Image& image) const;
   [[nodiscard]] std::string keep(const std::string& name, const std::string& svg) const;
