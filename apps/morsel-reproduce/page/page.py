@@ -84,13 +84,26 @@ def scoring(rows, name):
     return next(row for row in rows if row["name"] == name)
 
 
+def is_complete(figures):
+    """Whether the run came to its end: the last of the claims is there."""
+    return "open" in figures.get("claims", {})
+
+
 def add_opening(page):
     f = page.figures
     rows = f["times"]["rows"]
     ours = scoring(f["retrieval"]["generated"]["matrix"]["scorings"], "morsel")
-    curves = f["claims"]["curves"]["noise"]
-    clean, some = curves[0], min(curves, key=lambda c: abs(c["noise"] - 0.005))
-    query = max((q for q in f["claims"]["queries"] if q["method"] == "default"), key=lambda q: q["signatures"])
+    tiles = [(seconds(rows[-1]["seconds"]), f'from {rows[-1]["points"]:,} points to parts on {f["cores"]} cores; '
+              f'the paper, in 2004: {rows[-1]["paper_seconds"]:,.0f} s'),
+             (percent(ours["nearest_neighbor"]), f'of {len(f["retrieval"]["generated"]["matrix"]["categories"])} shapes have '
+              "one of their own class as nearest neighbour")]
+    if is_complete(f):
+        curves = f["claims"]["curves"]["noise"]
+        clean, some = curves[0], min(curves, key=lambda c: abs(c["noise"] - 0.005))
+        query = max((q for q in f["claims"]["queries"] if q["method"] == "default"), key=lambda q: q["signatures"])
+        tiles[1:1] = [(f'{some["default"]:.3f}', f'Rand error at noise of {percent(some["noise"])} on figures whose true parts '
+                       f'are known (clean {clean["default"]:.3f}; the published rules to the letter {some["paper"]:.3f})')]
+        tiles.append((seconds(query["median_seconds"]), f'for the five best of {query["signatures"]:,} signatures, exactly'))
     page.add("<h1>Parts, signatures and look-alikes from noisy points</h1>")
     page.add('<p class="lead">morsel takes the point cloud of a solid object, noisy or clean, and says which points '
              "belong to which part; what it finds makes a signature of at most one kilobyte, by which shapes of the same "
@@ -104,14 +117,7 @@ def add_opening(page):
                   f'<b>{r["parts"]} parts</b>') for r in shown) +
              "</div><figcaption>Noise is Gaussian in all directions, its standard deviation a fraction of the "
              "bounding-box diagonal. A colour stands for a part.</figcaption></figure>")
-    page.add('<div class="tiles">' + "".join(f"<div class=tile><b>{b}</b><span>{t}</span></div>" for b, t in (
-        (seconds(rows[-1]["seconds"]), f'from {rows[-1]["points"]:,} points to parts on {f["cores"]} cores; '
-         f'the paper, in 2004: {rows[-1]["paper_seconds"]:,.0f} s'),
-        (f'{some["default"]:.3f}', f'Rand error at noise of {percent(some["noise"])} on figures whose true parts are known '
-         f'(clean {clean["default"]:.3f}; the published rules to the letter {some["paper"]:.3f})'),
-        (percent(ours["nearest_neighbor"]), f'of {len(f["retrieval"]["generated"]["matrix"]["categories"])} shapes have one of '
-         "their own class as nearest neighbour"),
-        (seconds(query["median_seconds"]), f'for the five best of {query["signatures"]:,} signatures, exactly'))) + "</div>")
+    page.add('<div class="tiles">' + "".join(f"<div class=tile><b>{b}</b><span>{t}</span></div>" for b, t in tiles) + "</div>")
     page.add("<pre>make demo                                      # parts of example scans\n"
              "morsel segment scan.ply --html parts.html      # turn the parts and cut them finer\n"
              "morsel index --database shapes.db models/      # store the shapes of a folder\n"
@@ -142,14 +148,13 @@ def add_plane(page):
     page.add('<figure><div class="grid three">' + "".join(page.cell(s, c, c) for s, c in zip(p["steps"], captions)) +
              '</div><figcaption><b>Figure 1.</b> Computed, not drawn. ρ is larger than the published 0.5, which sets no '
              "ball apart on points this noisy.</figcaption></figure>")
-    if "saddle" in p:
-        s = p["saddle"]
-        page.add(f'<figure style="max-width:640px">{page.image(s["picture"], "a saddle between two maxima")}<figcaption>'
-                 "<b>Figure 2.</b> A saddle (orange dot) and its stable manifold, the edge through it, which separates two "
-                 f'maxima (blue dots). From the saddle, where the distance to the points is {s["radius"]:.3f}, the flow climbs '
-                 f'over larger and larger balls (blue lines) to {s["maxima"][0]:.3f} on one side and {s["maxima"][1]:.3f} '
-                 f'on the other. {s["points"]} noisy points around two disks that overlap; the clearest saddle of all, found by the '
-                 "program.</figcaption></figure>")
+    s = p["saddle"]
+    page.add(f'<figure style="max-width:640px">{page.image(s["picture"], "a saddle between two maxima")}<figcaption>'
+             "<b>Figure 2.</b> A saddle (orange dot) and its stable manifold, the edge through it, which separates two "
+             f'maxima (blue dots). From the saddle, where the distance to the points is {s["radius"]:.3f}, the flow climbs '
+             f'over larger and larger balls (blue lines) to {s["maxima"][0]:.3f} on one side and {s["maxima"][1]:.3f} '
+             f'on the other. {s["points"]} noisy points around two disks that overlap; the clearest saddle of all, found by the '
+             "program.</figcaption></figure>")
 
 
 def add_parts(page):
@@ -424,7 +429,11 @@ def write_page(page):
     add_times(page)
     add_matrix(page)
     add_d2(page)
-    add_claims(page)
+    if is_complete(page.figures):
+        add_claims(page)
+    else:
+        page.heading("claims", "The paper's claims")
+        page.add("<p>Not measured: the run was ended before.</p>")
     f = page.figures
     page.add(f'<footer>morsel {f["version"]}, {f["date"]}, {html.escape(f["processor"])}, {f["cores"]} cores'
              f'{", quick run: little of everything" if f["quick"] else ""}. Meshes and clouds: Debian\'s libcgal-demo. '
@@ -437,15 +446,34 @@ def write_page(page):
         f'<style>{style}</style></head><body><main>{"".join(page.pieces)}</main></body></html>\n', encoding="utf-8")
 
 
-def small_form(figures):
-    """The figures without what only the page needs: whole rankings, histograms, names of pictures."""
-    if isinstance(figures, dict):
-        return {k: small_form(v) for k, v in figures.items()
-                if k not in ("best", "d2", "picture", "balls", "steps", "categories", "queries") or
-                (k in ("d2", "queries") and isinstance(v, (dict, list)) and not (v and isinstance(v[0] if isinstance(v, list) else 0, float)))}
-    if isinstance(figures, list):
-        return [small_form(v) for v in figures]
-    return round(figures, 5) if isinstance(figures, float) else figures
+def small_form(value):
+    """The figures without what only the page needs: pictures, rankings, histograms."""
+    if isinstance(value, dict):
+        return {k: small_form(v) for k, v in value.items()
+                if k not in ("picture", "balls", "steps", "best", "categories") and not is_histogram(v)}
+    if isinstance(value, list):
+        return [small_form(v) for v in value]
+    return round(value, 5) if isinstance(value, float) else value
+
+
+def is_histogram(value):
+    return isinstance(value, list) and len(value) > 40 and isinstance(value[0], float)
+
+
+def parts_table(shapes):
+    """Numbers of parts as Markdown, and the pictures of a few shapes at the middle level of noise."""
+    lines = ["## Parts", "", "Numbers of parts without noise, with 0.3% and with 0.5% of the diagonal.", "",
+             "| shape | paper's rules | morsel |", "| --- | ---: | ---: |"]
+    for shape in shapes:
+        counts = [", ".join(str(r["parts"]) if r["verdict"] == "solid" else "no solid"
+                            for r in shape["runs"] if r["method"] == way) for way in WAYS]
+        lines.append(f'| {shape["name"]} | {counts[0]} | {counts[1]} |')
+    return lines + [""]
+
+
+def kept_picture(page, folder, name, alt, width):
+    shutil.copy(page.folder / name, folder)
+    return f'<img src="{pathlib.PurePath(name).name}" width="{width}" alt="{html.escape(alt)}">'
 
 
 def write_docs(page, folder):
@@ -463,14 +491,17 @@ def write_docs(page, folder):
         lines += [f'| {r["name"]} | {r["nearest_neighbor"]:.3f} | {r["first_tier"]:.3f} | {r["second_tier"]:.3f} | {r["discounted_gain"]:.3f} |'
                   for r in data["matrix"]["scorings"]]
         lines += [""]
-    for name, rows in (("noise", f["claims"]["curves"]["noise"]), ("outliers", f["claims"]["curves"]["outliers"])):
+    for name, rows in f.get("claims", {}).get("curves", {}).items():
         lines += [f"## Rand error against {name}, generated figures", "", f"| {name} | morsel | paper's rules |", "| ---: | ---: | ---: |"]
         lines += [f'| {percent(r[name])} | {r["default"]:.3f} | {r["paper"]:.3f} |' for r in rows] + [""]
+    lines += parts_table(f["parts"]["shapes"])
+    lines += ["Left the paper's rules, right morsel, noise of 0.3%:", ""]
+    for shape in f["parts"]["shapes"][1:7:2]:
+        lines += [kept_picture(page, folder, r["picture"], f'{shape["name"]}, {WAYS[r["method"]]}', 300)
+                  for r in shape["runs"] if r["noise"] == 0.003] + [""]
     lines += ["## The steps in the plane", ""]
-    for name in [*f["plane"]["steps"][3:6], f["plane"].get("saddle", {}).get("picture")]:
-        if name:
-            shutil.copy(page.folder / name, folder / pathlib.Path(name).name)
-            lines.append(f'<img src="{pathlib.Path(name).name}" width="380" alt="{pathlib.Path(name).stem}">')
+    lines += [kept_picture(page, folder, name, "a step in the plane", 380)
+              for name in [*f["plane"]["steps"][3:], f["plane"]["saddle"]["picture"]]]
     (folder / "README.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
