@@ -293,7 +293,7 @@ def add_d2(page):
                         for c in counts], marked=(0,)))
         worse = [c["name"] for c in counts if c["only_parts_wrong"] > c["only_d2_wrong"]]
         if worse:
-            page.add(verdict(False, f'Against D2, {" and ".join(worse)} loses more triples than it wins here.'))
+            page.add(verdict(False, f'Against D2, more triples are lost than won here by: {"; ".join(worse)}.'))
 
 
 def retrieval_lines(rows, x, names, key):
@@ -315,11 +315,13 @@ def add_robustness(page, c):
                  charts.line_chart(retrieval_lines(rows, x, names, "discounted_gain"), label,
                                    "discounted cumulative gain: higher is better", y_high=1.0, percent_x=True) + "</figure></div>")
     worst = max(outliers, key=lambda r: r["outliers"])
-    page.add(verdict(False, "The published rules, taken literally, do not bear noise: they find an inside in "
-                     f'{noise[0]["paper_solid"]} of {noise[0]["shapes"]} figures without noise and in {last["paper_solid"]} at '
-                     f'{percent(last["noise"])} (Rand error {noise[0]["paper"]:.3f} and {last["paper"]:.3f}). morsel goes from '
-                     f'{noise[0]["default"]:.3f} to {last["default"]:.3f}, and with {percent(worst["outliers"])} of outliers to '
-                     f'{worst["default"]:.3f}.'))
+    delivers = noise[0]["paper"] < 1.5 * noise[0]["default"] and last["paper"] < 1.5 * last["default"]
+    page.add(verdict(delivers, ("The published rules, taken literally, hold up: " if delivers else
+                                "Taken literally, the published rules do not deliver, with noise or without: ") +
+                     f'Rand error {noise[0]["paper"]:.3f} on clean points and {last["paper"]:.3f} at noise of '
+                     f'{percent(last["noise"])}, with an inside found in {noise[0]["paper_solid"]} and {last["paper_solid"]} of '
+                     f'{noise[0]["shapes"]} figures. morsel\'s default has {noise[0]["default"]:.3f} and {last["default"]:.3f}, and with '
+                     f'{percent(worst["outliers"])} of outliers {worst["default"]:.3f}.'))
     if "annotated" in page.figures:
         a = page.figures["annotated"]
         page.add(f'<p>The same on {a["models"]} meshes that people have cut (Princeton Segmentation Benchmark, {a["points"]:,} points):</p>')
@@ -480,12 +482,13 @@ def write_docs(page, folder):
     folder.mkdir(parents=True, exist_ok=True)
     f = page.figures
     (folder / "figures.json").write_text(json.dumps(small_form(f), indent=1) + "\n", encoding="utf-8")
+    missing = [] if is_complete(f) else ["The run was ended before the claims were measured.", ""]
     rows = [f'| {r["points"]:,} | {r["paper_seconds"]:g} | {r["seconds"]:.2f} | {r["factor"]:.0f} |' for r in f["times"]["rows"]]
     lines = ["# The paper, reproduced", "",
              "The figures of the page that `make reproduce` builds in `out/reproduction/index.html`, in a small form: "
              "[figures.json](figures.json) has all of them.", "",
              f'morsel {f["version"]}, {f["date"][:10]}, {f["processor"]}, {f["cores"]} cores, possibly with other work.', "",
-             "## Times", "", "| points | paper, s | morsel, s | factor |", "| ---: | ---: | ---: | ---: |", *rows, ""]
+             *missing, "## Times", "", "| points | paper, s | morsel, s | factor |", "| ---: | ---: | ---: | ---: |", *rows, ""]
     for key, data in collections(page):
         lines += [f"## Retrieval, {NAMES[key]}", "", "| score | NN | first tier | second tier | DCG |", "| --- | ---: | ---: | ---: | ---: |"]
         lines += [f'| {r["name"]} | {r["nearest_neighbor"]:.3f} | {r["first_tier"]:.3f} | {r["second_tier"]:.3f} | {r["discounted_gain"]:.3f} |'
