@@ -84,8 +84,12 @@ bool inside_equatorial_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const
   const double magnitude =
       ww * uu * vv + 2.0 * uu * vv * std::sqrt(ww) * std::sqrt(std::max(uu, vv));
   const double bound = 512.0 * std::numeric_limits<double>::epsilon() * magnitude;
-  if (value < -bound) return true;
-  if (value > bound) return false;
+  // Below, products lose digits to underflow, which the bound does not count.
+  constexpr double kLeastSquare = 1e-90;
+  if (std::min({uu, vv, ww}) > kLeastSquare) {
+    if (value < -bound) return true;
+    if (value > bound) return false;
+  }
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const auto point = [](const Vec3& p) { return Kernel::Point_3(p.x, p.y, p.z); };
   return CGAL::side_of_bounded_sphere(point(a), point(b), point(c), point(test)) ==

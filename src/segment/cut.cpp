@@ -4,6 +4,7 @@
 #include <morsel/error.hpp>
 #include <morsel/segment.hpp>
 #include <numeric>
+#include <ranges>
 #include <string>
 
 #include "base/union_find.hpp"
@@ -14,9 +15,9 @@ namespace {
 // The merge ratio that leaves `wanted` parts, or as close as the tree allows.
 double ratio_for_parts(const MergeTree& tree, std::size_t wanted) {
   std::size_t parts = tree.component_count;
-  for (auto merge = tree.merges.rbegin(); merge != tree.merges.rend(); ++merge) {
-    if (parts >= wanted) return merge->ratio;
-    parts += merge->significant ? 1 : 0;
+  for (const Merge& merge : std::views::reverse(tree.merges)) {
+    if (parts >= wanted) return merge.ratio;
+    parts += merge.significant ? 1 : 0;
   }
   return 1.0;
 }
@@ -95,10 +96,10 @@ std::vector<MergeTree::Level> MergeTree::levels() const {
   std::vector<Level> levels;
   std::size_t parts = component_count;
   double to = std::numeric_limits<double>::infinity();
-  for (auto merge = merges.rbegin(); merge != merges.rend(); ++merge) {
-    if (!merge->significant) continue;
-    if (merge->ratio < to) levels.push_back({parts, merge->ratio, to});
-    to = merge->ratio;
+  for (const Merge& merge : std::views::reverse(merges)) {
+    if (!merge.significant) continue;
+    if (merge.ratio < to) levels.push_back({parts, merge.ratio, to});
+    to = merge.ratio;
     ++parts;
   }
   if (to > 1.0) levels.push_back({parts, 1.0, to});
