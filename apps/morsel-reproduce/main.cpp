@@ -56,7 +56,7 @@ void run(const Options& options) {
 int main_of(int argc, char** argv) {
   CLI::App app(
       "Measures everything that Dey, Giesen and Goswami (2004) show, from real data: writes "
-      "figures.json and pictures, from which scripts/reproduction_page.py makes a page.");
+      "figures.json and pictures, from which make reproduce makes a page.");
   Options options;
   app.add_option("--out", options.out, "Folder to write to")->capture_default_str();
   app.add_option("--data", options.data,
