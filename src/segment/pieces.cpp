@@ -114,9 +114,11 @@ class Growth {
   // region takes all that it reaches, at about `reach` from the seed.
   void add(std::uint32_t seed, double reach) {
     const auto piece = static_cast<std::uint32_t>(farthest_.size());
+    const Vec3 center = places_[seed].centroid;
     std::vector<Candidate>& candidates = candidates_.emplace_back();
     for (const std::uint32_t c : grow(seed, piece, reach)) {
-      if (may_seed_[c]) candidates.push_back({places_[c].squared, c});
+      if (!may_seed_[c]) continue;
+      candidates.push_back({places_[c].squared, squared_distance(center, places_[c].centroid), c});
     }
     farthest_.push_back(farthest_of(candidates));
   }
@@ -168,8 +170,11 @@ class Growth {
     }
   }
 
+  // All cells behind the farthest of a way have its distance: of those the one that lies farthest
+  // itself. Their numbers, which depend on the pose, decide between equals alone.
   struct Candidate {
-    double squared = 0.0;  // of the distance to the seed
+    double squared = 0.0;  // of the distance to the seed: of the way there
+    double own = 0.0;      // likewise, of the cell itself
     std::uint32_t cell = 0;
     friend auto operator<=>(const Candidate&, const Candidate&) = default;
   };

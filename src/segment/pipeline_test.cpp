@@ -258,8 +258,7 @@ TEST(SegmentTest, AxesExchanged) {
   expect_axes_do_not_matter(shapes::box(5000, {1, 2, 5}));
 }
 
-// Not yet: with strong noise the rounding of the smoothed positions still moves single labels.
-TEST(SegmentTest, DISABLED_AxesExchangedUnderStrongNoise) {
+TEST(SegmentTest, AxesExchangedUnderStrongNoise) {
   expect_axes_do_not_matter(shapes::noisy(shapes::dumbbell(6000), 0.02));
 }
 
