@@ -361,8 +361,8 @@ def add_invariance(page, c):
                     ("a byte of the signature's tables, of 255", i["table_step"]),
                     ("Rand error between the labels before and after", f'{i["labels"]:.3g}')]))
     page.add(verdict(i["score"] < 0.02, f'{i["same_tables"]:,} of {i["transforms"]:,} transforms left every byte of the tables as it was, '
-                     f'{i["same_labels"]:,} every label. Rounding moves the coordinates of the others, and points nearly on one plane or sphere are '
-                     "then triangulated otherwise. The paper's score to the letter is not invariant: boxes along the axes change with the "
+                     f'{i["same_labels"]:,} every label. Rounding moves the coordinates of the others: where cells or merges of noisy points are equal but for that, another '
+                     "comes first, on small clouds with many parts to choose from. The paper's score to the letter is not invariant: boxes along the axes change with the "
                      "pose, and the roll about the aligned line is left free."))
 
 
