@@ -56,10 +56,10 @@ struct Postures {
 
 json describe(const ClassedShape& shape, int id, const RunOptions& options) {
   const TriangleMesh mesh = read_mesh(shape.path);
-  const Bent bent = bend_limbs(mesh, seed_of_model(options.seed, id));
+  const std::uint64_t seed = seed_of_model(options.seed, id);
+  const Bent bent = bend_limbs(mesh, seed);
   const Cloud cloud = sample_cloud(mesh, id, options.cloud(0.0));
   const std::vector<Vec3> carried = carried_over(cloud, mesh, bent.mesh);
-  const std::uint64_t seed = seed_of_model(options.seed, id);
   const Segmentation a = segment(posed(cloud.points, seed, false), options.segment());
   const Segmentation b = segment(posed(carried, seed + 1, false), options.segment());
   return {{"straight", to_json(make_signature(a, 1))},

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
-#include <queue>
-#include <utility>
 #include <vector>
 
-#include "base/box.hpp"
 #include "base/random.hpp"
+#include "base/shortest_ways.hpp"
 
 namespace morsel::bench {
 namespace {
-
-using Graph = std::vector<std::vector<std::pair<std::uint32_t, double>>>;
 
 Graph edges_of(const TriangleMesh& mesh) {
   Graph graph(mesh.vertices.size());
@@ -32,22 +27,9 @@ Graph edges_of(const TriangleMesh& mesh) {
 
 // Ways along the edges from one vertex; those that are not reached are not of interest: 0.
 std::vector<double> ways_from(const Graph& graph, std::uint32_t from) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::vector<double> way(graph.size(), kFar);
-  using Step = std::pair<double, std::uint32_t>;
-  std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
-  open.emplace(way[from] = 0.0, from);
-  while (!open.empty()) {
-    const auto [length, at] = open.top();
-    open.pop();
-    if (length > way[at]) continue;
-    for (const auto& [next, step] : graph[at]) {
-      if (length + step >= way[next]) continue;
-      open.emplace(way[next] = length + step, next);
-    }
-  }
-  for (double& length : way) length = length < kFar ? length : 0.0;
-  return way;
+  std::vector<double> ways = shortest_ways(graph, from);
+  std::ranges::replace(ways, std::numeric_limits<double>::infinity(), 0.0);
+  return ways;
 }
 
 std::uint32_t largest(const std::vector<double>& values) {

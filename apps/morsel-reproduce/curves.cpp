@@ -15,16 +15,6 @@ using nlohmann::ordered_json;
 
 constexpr std::uint64_t kOtherSample = 2;
 
-// The first members of each family, sampled anew.
-std::vector<Shape> first_members(std::size_t members, const Sampling& sampling) {
-  const std::size_t families = solids::family_names().size();
-  std::vector<Shape> shapes(families * members);
-  parallel_rows(shapes.size(), 0, [&](std::size_t i) {
-    shapes[i] = make_shape({.family = i / members, .number = i % members}, sampling);
-  });
-  return shapes;
-}
-
 // Which stored shape each query is: the first members of each family.
 std::vector<std::size_t> stored_places(const Collection& stored, std::size_t members) {
   const std::size_t families = solids::family_names().size();
@@ -36,16 +26,8 @@ std::vector<std::size_t> stored_places(const Collection& stored, std::size_t mem
   return places;
 }
 
-ordered_json retrieval_json(const Scoring& scoring, const std::vector<Described>& queries,
-                            const Collection& stored, const std::vector<std::size_t>& places) {
-  ordered_json json = {{"name", scoring.name}};
-  bench::add_measures(
-      bench::rank(score_all(scoring, queries, stored.described), stored.categories, places), json);
-  return json;
-}
-
 ordered_json level_json(const Sampling& sampling, const Collection& stored, std::size_t members) {
-  const std::vector<Described> queries = describe_all(first_members(members, sampling));
+  const std::vector<Described> queries = describe_all(make_members(members, sampling));
   std::vector<double> ours;
   std::vector<double> rules;
   std::size_t solid = 0;
@@ -62,7 +44,8 @@ ordered_json level_json(const Sampling& sampling, const Collection& stored, std:
                        {"paper_solid", rules_solid}};
   const std::vector<std::size_t> places = stored_places(stored, members);
   for (const Scoring& scoring : scorings()) {
-    json["retrieval"].push_back(retrieval_json(scoring, queries, stored, places));
+    const std::vector<double> scores = score_all(scoring, queries, stored.described);
+    json["retrieval"].push_back(measures_json(scoring, scores, stored.categories, places));
   }
   say(fmt::format("  noise {:g}, outliers {:g}: Rand error {:.3f}, paper's rules {:.3f}",
                   sampling.noise, sampling.outliers, bench::mean(ours), bench::mean(rules)));
@@ -156,7 +139,7 @@ ordered_json disturbance_curves(const Study& study, const Collection& generated)
 
 ordered_json parameter_curves(const Study& study) {
   const std::vector<Shape> shapes =
-      first_members(study.amount(2, 1), {.points = study.shape_points(), .seed = kOtherSample});
+      make_members(study.amount(2, 1), {.points = study.shape_points(), .seed = kOtherSample});
   const bool quick = study.options.quick;
   ordered_json json = {{"shapes", shapes.size()}};
   for (const double angle : {10.0, 60.0}) {
@@ -171,8 +154,7 @@ ordered_json parameter_curves(const Study& study) {
 
 ordered_json point_curve(const Study& study, const Collection& generated) {
   ordered_json curve = ordered_json::array();
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < generated.size(); ++i) all.push_back(i);
+  const std::vector<std::size_t> all = all_of(generated.size());
   for (const std::size_t count : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
     if (study.options.quick && count % 4 != 0) continue;
     std::vector<Described> cut_down = generated.described;
@@ -182,11 +164,8 @@ ordered_json point_curve(const Study& study, const Collection& generated) {
     }
     ordered_json row = {{"points", count}};
     for (const std::size_t k : {kPaperOurParts, kPaperScore}) {
-      ordered_json measures = {{"name", scorings()[k].name}};
-      bench::add_measures(
-          bench::rank(score_all(scorings()[k], cut_down, cut_down), generated.categories, all),
-          measures);
-      row["scorings"].push_back(std::move(measures));
+      const std::vector<double> scores = score_all(scorings()[k], cut_down, cut_down);
+      row["scorings"].push_back(measures_json(scorings()[k], scores, generated.categories, all));
     }
     curve.push_back(std::move(row));
   }

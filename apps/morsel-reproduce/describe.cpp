@@ -83,6 +83,14 @@ Shape make_shape(const solids::Member& member, const Sampling& sampling) {
           .truth = std::move(cloud.parts)};
 }
 
+std::vector<Shape> make_members(std::size_t members, const Sampling& sampling) {
+  std::vector<Shape> shapes(solids::family_names().size() * members);
+  parallel_rows(shapes.size(), 0, [&](std::size_t i) {
+    shapes[i] = make_shape({.family = i / members, .number = i % members}, sampling);
+  });
+  return shapes;
+}
+
 const std::vector<Scoring>& scorings() {
   static const std::vector<Scoring> all{
       {"morsel", [](const Described& a,
@@ -113,9 +121,22 @@ std::vector<double> score_all(const Scoring& scoring, std::span<const Described>
   return scores;
 }
 
+nlohmann::ordered_json measures_json(const Scoring& scoring, std::span<const double> scores,
+                                     std::span<const std::string> categories,
+                                     std::span<const std::size_t> queries) {
+  nlohmann::ordered_json json = {{"name", scoring.name}};
+  bench::add_measures(bench::rank(scores, categories, queries), json);
+  return json;
+}
+
+std::vector<std::size_t> all_of(std::size_t count) {
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
 std::vector<std::size_t> Collection::ranked(std::size_t scoring, std::size_t query) const {
-  std::vector<std::size_t> order(size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order = all_of(size());
   order.erase(order.begin() + static_cast<std::ptrdiff_t>(query));
   std::ranges::stable_sort(order, std::ranges::greater{},
                            [&](std::size_t i) { return score(scoring, query, i); });

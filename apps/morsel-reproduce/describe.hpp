@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <morsel/morsel.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,6 +60,9 @@ struct Sampling {
 };
 [[nodiscard]] Shape make_shape(const solids::Member& member, const Sampling& sampling);
 
+/// The first members of each family.
+[[nodiscard]] std::vector<Shape> make_members(std::size_t members, const Sampling& sampling);
+
 /// A way to say how alike two shapes are; higher is more alike.
 struct Scoring {
   std::string name;
@@ -72,6 +76,15 @@ enum ScoringIndex : std::size_t { kDefaultScore, kPaperOurParts, kPaperScore, kL
 [[nodiscard]] std::vector<double> score_all(const Scoring& scoring,
                                             std::span<const Described> queries,
                                             std::span<const Described> stored);
+
+/// Name and measures of a scoring: `scores` is (queries, stored) row-major, `queries` says which of
+/// the stored shapes each query is.
+[[nodiscard]] nlohmann::ordered_json measures_json(const Scoring& scoring,
+                                                   std::span<const double> scores,
+                                                   std::span<const std::string> categories,
+                                                   std::span<const std::size_t> queries);
+/// 0 … count - 1: all shapes ask.
+[[nodiscard]] std::vector<std::size_t> all_of(std::size_t count);
 
 /// Shapes, what is known of them, and the scores of all pairs.
 struct Collection {

@@ -7,6 +7,7 @@
 
 #include "balls.hpp"
 #include "base/box.hpp"
+#include "base/noise.hpp"
 #include "base/random.hpp"
 #include "describe.hpp"
 #include "sections.hpp"
@@ -71,13 +72,8 @@ std::vector<Source> sources_of(const Study& study) {
 
 // As sampling a mesh does it: Gaussian, a fraction of the diagonal.
 std::vector<Vec3> noisy(std::vector<Vec3> points, double noise) {
-  const double sigma = noise * bounding_box(points).diagonal();
   Random random(1);
-  for (Vec3& p : points) {
-    const double x = random.normal();
-    const double y = random.normal();
-    p = p + sigma * Vec3{x, y, random.normal()};
-  }
+  add_noise(points, noise * bounding_box(points).diagonal(), random);
   return points;
 }
 
@@ -114,10 +110,9 @@ struct Way {
   SegmentOptions options;
 };
 
-// One shape, at one level of noise, by one method.
+// One shape's points, at one level of noise, by one method.
 ordered_json cut_once(const Study& study, const Source& source, const Way& way, double noise,
-                      std::span<const Vec3> pose) {
-  const std::vector<Vec3> points = points_of(study, source, noise);
+                      std::span<const Vec3> points, std::span<const Vec3> pose) {
   SegmentOptions options = way.options;
   options.threads = options.denoise.threads = 0;
   const bench::Stopwatch watch;
@@ -147,8 +142,9 @@ void add_parts(Study& study) {
     const std::vector<Vec3> pose = points_of(study, source, 0.0);
     ordered_json shape = {{"name", source.name}, {"source", source.origin}};
     for (const double noise : kNoise) {
+      const std::vector<Vec3> points = points_of(study, source, noise);
       for (const Way& way : ways) {
-        shape["runs"].push_back(cut_once(study, source, way, noise, pose));
+        shape["runs"].push_back(cut_once(study, source, way, noise, points, pose));
       }
     }
     shapes.push_back(std::move(shape));

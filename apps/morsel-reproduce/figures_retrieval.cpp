@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "balls.hpp"
 #include "base/threads.hpp"
@@ -19,19 +18,12 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kBest = 5;
 
-ordered_json measures_of(const Collection& c, std::size_t scoring) {
-  std::vector<std::size_t> queries(c.size());
-  std::iota(queries.begin(), queries.end(), std::size_t{0});
-  ordered_json json = {{"name", scorings()[scoring].name}};
-  bench::add_measures(bench::rank(c.scores[scoring], c.categories, queries), json);
-  return json;
-}
-
 ordered_json matrix_of(const Collection& c) {
   ordered_json json;
   json["categories"] = c.categories;
+  const std::vector<std::size_t> all = all_of(c.size());
   for (std::size_t k = 0; k < scorings().size(); ++k) {
-    ordered_json row = measures_of(c, k);
+    ordered_json row = measures_json(scorings()[k], c.scores[k], c.categories, all);
     for (std::size_t query = 0; query < c.size(); ++query) {
       std::vector<std::size_t> best = c.ranked(k, query);
       best.resize(std::min(best.size(), kBest));
@@ -180,14 +172,7 @@ ordered_json d2_figure(const Study& study, const std::string& name, const Collec
 }  // namespace
 
 Collection make_generated(const Study& study) {
-  const std::size_t families = solids::family_names().size();
-  const std::size_t members = study.amount(12, 2);
-  std::vector<Shape> shapes(families * members);
-  parallel_rows(shapes.size(), 0, [&](std::size_t i) {
-    shapes[i] = make_shape({.family = i / members, .number = i % members},
-                           {.points = study.shape_points()});
-  });
-  return make_collection(std::move(shapes));
+  return make_collection(make_members(study.amount(12, 2), {.points = study.shape_points()}));
 }
 
 Collection make_psb(const Study& study) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/box.hpp"
+#include "base/noise.hpp"
 #include "base/random.hpp"
 
 namespace morsel::solids {
@@ -172,17 +173,6 @@ std::optional<int> part_at(const Solid& solid, const Line& line, std::size_t own
   return solid[own].hole ? part : std::optional(solid[own].part);
 }
 
-void add_noise(std::vector<Vec3>& points, double fraction, Random& random) {
-  if (points.empty() || !(fraction > 0.0)) return;
-  const double sigma = fraction * bounding_box(points).diagonal();
-  for (Vec3& p : points) {
-    const double x = random.normal();
-    const double y = random.normal();
-    const double z = random.normal();
-    p = p + sigma * Vec3{x, y, z};
-  }
-}
-
 }  // namespace
 
 std::optional<Stretch> stretch_inside(const Body& body, const Vec3& origin, const Vec3& direction) {
@@ -237,7 +227,7 @@ LabelledPoints sample(const Solid& solid, const SurfaceOptions& options) {
       }
     }
   }
-  add_noise(result.points, options.noise, random);
+  add_noise(result.points, options.noise * bounding_box(result.points).diagonal(), random);
   return result;
 }
 

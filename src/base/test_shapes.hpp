@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/noise.hpp"
 #include "base/random.hpp"
 
 namespace morsel::shapes {
@@ -127,11 +128,7 @@ inline Points dumbbell(std::size_t count, double bar = 0.3, std::uint64_t seed =
 /// Gaussian noise in all directions.
 inline Points noisy(Points points, double sigma, std::uint64_t seed = 99) {
   Random random(seed);
-  for (Vec3& p : points) {
-    const double x = random.normal();
-    const double y = random.normal();
-    p = p + sigma * Vec3{x, y, random.normal()};
-  }
+  add_noise(points, sigma, random);
   return points;
 }
 

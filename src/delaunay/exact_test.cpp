@@ -18,6 +18,7 @@
 #include "base/random.hpp"
 #include "base/test_shapes.hpp"
 #include "delaunay/balls.hpp"
+#include "delaunay/test_complex.hpp"
 
 namespace morsel {
 namespace {
@@ -152,14 +153,6 @@ Cells cells_of(const DelaunayComplex& complex) {
     cells.insert(corners);
   }
   return cells;
-}
-
-void expect_positive(const DelaunayComplex& complex) {
-  for (const auto& [i, j, k, l] : complex.cells) {
-    EXPECT_EQ(CGAL::orientation(exact(complex.vertices[i]), exact(complex.vertices[j]),
-                                exact(complex.vertices[k]), exact(complex.vertices[l])),
-              CGAL::POSITIVE);
-  }
 }
 
 // Of each facet of each cell, and the vertex opposite.

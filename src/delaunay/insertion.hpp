@@ -13,9 +13,9 @@
 namespace morsel {
 
 /// The rounds in which n points are inserted, indices ascending in each. Every round is a sample of
-/// all points, three times as large as those before it together; so each new
-/// point meets few cells, and the next one is close by. Source: N. Amenta, S. Choi, G. Rote,
-/// "Incremental constructions con BRIO", SoCG 2003.
+/// all points, three times as large as those before it together; so each new point meets few cells,
+/// and the next one is close by.
+/// Source: N. Amenta, S. Choi, G. Rote, "Incremental constructions con BRIO", SoCG 2003.
 [[nodiscard]] inline std::vector<std::vector<std::uint32_t>> insertion_rounds(std::uint32_t n) {
   constexpr std::uint32_t kFirstRound = 1024;
   int rounds = 1;
@@ -31,7 +31,7 @@ namespace morsel {
 }
 
 /// Inserts `points`, distinct and along a space-filling curve, each with its index as info. With
-/// `locks`, those of `delaunay`, by all threads of the caller's arena.
+/// `locks`, by all threads of the caller's arena.
 template <typename Delaunay>
 class Insertion {
  public:

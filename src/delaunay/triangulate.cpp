@@ -131,7 +131,7 @@ void triangulate_parallel(DelaunayComplex& complex, int threads, const Progress*
     for (const Vec3& v : complex.vertices) box += CGAL::Bbox_3(v.x, v.y, v.z, v.x, v.y, v.z);
     using Delaunay = Triangulation<CGAL::Parallel_tag>;
     Delaunay::Lock_data_structure locks(box, kLockGridSize);
-    Delaunay delaunay(Kernel(), &locks);
+    Delaunay delaunay;
     insert_and_copy(delaunay, &locks, complex, threads, progress);
   });
 }

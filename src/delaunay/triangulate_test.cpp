@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/test_shapes.hpp"
+#include "delaunay/test_complex.hpp"
 
 namespace morsel {
 namespace {
@@ -26,14 +27,6 @@ double total_volume(const DelaunayComplex& complex) {
   double sum = 0.0;
   for (std::size_t c = 0; c < complex.cell_count(); ++c) sum += cell_volume(complex, c);
   return sum;
-}
-
-void expect_positive(const DelaunayComplex& complex) {
-  for (const auto& [i, j, k, l] : complex.cells) {
-    EXPECT_EQ(CGAL::orientation(exact(complex.vertices[i]), exact(complex.vertices[j]),
-                                exact(complex.vertices[k]), exact(complex.vertices[l])),
-              CGAL::POSITIVE);
-  }
 }
 
 void expect_empty_balls(const DelaunayComplex& complex) {

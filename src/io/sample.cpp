@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/box.hpp"
+#include "base/noise.hpp"
 #include "base/random.hpp"
 
 namespace morsel {
@@ -100,16 +101,10 @@ SurfaceSample sample_surface(const TriangleMesh& mesh, const SampleOptions& opti
     const auto chosen = std::upper_bound(areas.begin(), areas.end(), random.uniform() * total);
     const auto t = std::min(static_cast<std::size_t>(chosen - areas.begin()), areas.size() - 1);
     const auto& [a, b, c] = mesh.triangles[t];
-    Vec3 point = point_on(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], random);
-    if (sigma > 0.0) {
-      const double x = noise.normal();
-      const double y = noise.normal();
-      const double z = noise.normal();
-      point = point + sigma * Vec3{x, y, z};
-    }
-    sample.points.push_back(point);
+    sample.points.push_back(point_on(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], random));
     sample.triangle.push_back(static_cast<std::uint32_t>(t));
   }
+  if (sigma > 0.0) add_noise(sample.points, sigma, noise);
   return sample;
 }
 

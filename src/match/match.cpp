@@ -46,40 +46,9 @@ struct Pair {
   int source = 0;
 };
 
-std::size_t nearest(const Blob& blob, const std::vector<Blob>& others) {
-  return static_cast<std::size_t>(
-      std::ranges::min_element(
-          others, {}, [&](const Blob& other) { return (other.mean - blob.mean).squaredNorm(); }) -
-      others.begin());
-}
-
-// Each part goes to the nearest of the other shape: a limb that was bent lies beside where it was,
-// and what one posture cuts in two is one part in the other.
-void pair_neighbors(const std::vector<Blob>& target, const std::vector<Blob>& source,
-                    Match& result) {
-  if (target.empty() || source.empty()) return;
-  std::vector<std::vector<double>> overlaps(target.size(), std::vector<double>(source.size()));
-  std::vector<std::vector<char>> chosen(target.size(), std::vector<char>(source.size(), 0));
-  double total = 0.0;
-  for (std::size_t i = 0; i < target.size(); ++i) {
-    for (std::size_t k = 0; k < source.size(); ++k) {
-      total += overlaps[i][k] = overlap({target[i]}, {source[k]});
-    }
-    chosen[i][nearest(target[i], source)] = 1;
-  }
-  for (std::size_t k = 0; k < source.size(); ++k) chosen[nearest(source[k], target)][k] = 1;
-  for (std::size_t i = 0; i < target.size(); ++i) {
-    for (std::size_t k = 0; k < source.size(); ++k) {
-      if (chosen[i][k] == 0) continue;
-      result.matched.push_back(
-          {static_cast<int>(i), static_cast<int>(k), total > 0.0 ? overlaps[i][k] / total : 0.0});
-    }
-  }
-  std::ranges::stable_sort(result.matched, std::ranges::greater{}, &MatchedPart::contribution);
-}
-
-// Pairs of parts in order of the overlap that they make up; each part once.
-void pair_parts(const std::vector<Blob>& target, const std::vector<Blob>& source, Match& result) {
+// All pairs of parts, those that overlap most first.
+std::vector<Pair> overlapping_pairs(const std::vector<Blob>& target,
+                                    const std::vector<Blob>& source) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < target.size(); ++i) {
     for (std::size_t k = 0; k < source.size(); ++k) {
@@ -88,8 +57,44 @@ void pair_parts(const std::vector<Blob>& target, const std::vector<Blob>& source
     }
   }
   std::ranges::stable_sort(pairs, std::ranges::greater{}, &Pair::overlap);
+  return pairs;
+}
+
+double total_overlap(const std::vector<Pair>& pairs) {
   double total = 0.0;
   for (const Pair& pair : pairs) total += pair.overlap;
+  return total;
+}
+
+// For each blob the one of the others whose mean is nearest.
+std::vector<int> nearest_of(const std::vector<Blob>& blobs, const std::vector<Blob>& others) {
+  std::vector<int> nearest;
+  for (const Blob& blob : blobs) {
+    const auto found = std::ranges::min_element(
+        others, {}, [&](const Blob& other) { return (other.mean - blob.mean).squaredNorm(); });
+    nearest.push_back(static_cast<int>(found - others.begin()));
+  }
+  return nearest;
+}
+
+// Each part goes to the nearest of the other shape: a limb that was bent lies beside where it was,
+// and what one posture cuts in two is one part in the other.
+void pair_neighbors(const std::vector<Blob>& target, const std::vector<Blob>& source,
+                    Match& result) {
+  const std::vector<Pair> pairs = overlapping_pairs(target, source);
+  const double total = total_overlap(pairs);
+  const std::vector<int> of_target = nearest_of(target, source);
+  const std::vector<int> of_source = nearest_of(source, target);
+  for (const auto& [overlap, i, k] : pairs) {
+    if (of_target[i] != k && of_source[k] != i) continue;
+    result.matched.push_back({i, k, total > 0.0 ? overlap / total : 0.0});
+  }
+}
+
+// Each part goes to the one that it overlaps most of those that are left.
+void pair_parts(const std::vector<Blob>& target, const std::vector<Blob>& source, Match& result) {
+  const std::vector<Pair> pairs = overlapping_pairs(target, source);
+  const double total = total_overlap(pairs);
   std::vector<bool> target_taken(target.size(), false);
   std::vector<bool> source_taken(source.size(), false);
   for (const Pair& pair : pairs) {

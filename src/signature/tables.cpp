@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
-#include <queue>
 #include <utility>
 
+#include "base/shortest_ways.hpp"
 #include "base/threads.hpp"
 #include "signature/harmonics.hpp"
 #include "signature/landmarks.hpp"
@@ -218,9 +218,7 @@ Bytes thickness_table(const Solid& solid) {
 }
 
 // Landmarks joined where an inner edge leads from one's points to the other's.
-using Roads = std::vector<std::vector<std::pair<std::uint32_t, double>>>;
-
-Roads find_roads(const DelaunayComplex& complex, const Solid& solid, const Landmarks& marks) {
+Graph find_roads(const DelaunayComplex& complex, const Solid& solid, const Landmarks& marks) {
   std::vector<std::uint8_t> joined(marks.count() * marks.count(), 0);
   for (const Solid::Cell& cell : solid.cells) {
     const auto& corners = complex.cells[cell.cell];
@@ -229,7 +227,7 @@ Roads find_roads(const DelaunayComplex& complex, const Solid& solid, const Landm
       for (std::size_t k = 0; k < 4; ++k) joined[row + marks.owner[corners[k]]] = 1;
     }
   }
-  Roads roads(marks.count());
+  Graph roads(marks.count());
   for (std::uint32_t a = 0; a < marks.count(); ++a) {
     for (std::uint32_t b = 0; b < marks.count(); ++b) {
       if (a == b || joined[a * marks.count() + b] == 0) continue;
@@ -237,27 +235,6 @@ Roads find_roads(const DelaunayComplex& complex, const Solid& solid, const Landm
     }
   }
   return roads;
-}
-
-// Shortest ways from one landmark to all others (E. W. Dijkstra 1959); infinite where there is
-// none.
-std::vector<double> shortest_ways(const Roads& roads, std::uint32_t from) {
-  std::vector<double> length(roads.size(), std::numeric_limits<double>::infinity());
-  using Step = std::pair<double, std::uint32_t>;
-  std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
-  length[from] = 0.0;
-  open.emplace(0.0, from);
-  while (!open.empty()) {
-    const auto [way, at] = open.top();
-    open.pop();
-    if (way > length[at]) continue;
-    for (const auto& [next, step] : roads[at]) {
-      if (way + step >= length[next]) continue;
-      length[next] = way + step;
-      open.emplace(length[next], next);
-    }
-  }
-  return length;
 }
 
 std::vector<double> shares_of_landmarks(const Solid& solid, const Landmarks& marks) {
@@ -288,7 +265,7 @@ std::vector<double> gather_shares(const Landmarks& marks, const std::vector<doub
 // Each landmark's mean way through the inside to the volume, over the mean of all.
 std::vector<double> find_centricity(const DelaunayComplex& complex, const Solid& solid,
                                     const Landmarks& marks) {
-  const Roads roads = find_roads(complex, solid, marks);
+  const Graph roads = find_roads(complex, solid, marks);
   const std::vector<double> shares = shares_of_landmarks(solid, marks);
   const std::size_t sources = std::min(kGeodesicSources, marks.count());
   const std::vector<double> weights = gather_shares(marks, shares, sources);

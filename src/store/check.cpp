@@ -73,15 +73,11 @@ class Findings {
 
 void check_links(Connection& connection, Findings& findings) {
   findings.each_row(
-      "SELECT name FROM shapes WHERE NOT EXISTS (SELECT 1 FROM signatures WHERE "
-      "signatures.id = shapes.signature)",
-      [&](const Rows& row) {
+      fmt::format("SELECT name {}", store::kShapesWithoutSignature), [&](const Rows& row) {
         fail(connection, fmt::format("shape '{}': its signature is missing", row.bytes(0)));
       });
   findings.each_row(
-      "SELECT id FROM signatures WHERE NOT EXISTS (SELECT 1 FROM shapes WHERE "
-      "shapes.signature = signatures.id)",
-      [&](const Rows& row) {
+      fmt::format("SELECT id {}", store::kSignaturesWithoutShape), [&](const Rows& row) {
         fail(connection, fmt::format("signature {} belongs to no shape", row.integer(0)));
       });
 }

@@ -34,13 +34,13 @@ std::unique_ptr<Connection> connect(const std::filesystem::path& place, Access a
                                        ": the database is empty; index shapes into it to make one "
                                        "of morsel's");
   }
-  if (access != Access::kRead) {
-    migrate(*connection);
-  } else if (version < kSchemaVersion) {
+  if (version == kSchemaVersion) return connection;
+  if (access == Access::kRead) {
     throw Error(ErrorCode::kInput, connection->name() +
                                        ": was written by an older morsel; change anything in it "
                                        "with this program to bring it up to date");
   }
+  migrate(*connection);
   return connection;
 }
 

@@ -47,9 +47,7 @@ std::vector<Damage> damaged_shapes(Connection& connection) {
 }
 
 std::vector<Damage> shapes_without_signature(Connection& connection) {
-  return damaged(connection,
-                 "SELECT id, name FROM shapes WHERE NOT EXISTS "
-                 "(SELECT 1 FROM signatures WHERE signatures.id = shapes.signature)",
+  return damaged(connection, fmt::format("SELECT id, name {}", store::kShapesWithoutSignature),
                  [&](const Rows& row) {
                    throw Error(ErrorCode::kInput,
                                fmt::format("{}: shape '{}': its signature is missing",
@@ -94,9 +92,7 @@ std::vector<std::string> Database::repair() {
     }
     drop(signatures, "DELETE FROM signatures WHERE id = ?1");
     drop(shapes_without_signature(connection), "DELETE FROM shapes WHERE id = ?1");
-    connection.run(
-        "DELETE FROM signatures WHERE NOT EXISTS "
-        "(SELECT 1 FROM shapes WHERE shapes.signature = signatures.id)");
+    connection.run(fmt::format("DELETE {}", store::kSignaturesWithoutShape));
     recount(connection);
     return reasons;
   });

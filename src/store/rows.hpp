@@ -29,6 +29,14 @@ inline constexpr const char* kDataColumns =
     "signatures.id, content, options, points, signatures.signature, sketch, "
     "signatures.checksum";
 
+/// The rest of a query, from FROM on, for what has lost its other half.
+inline constexpr const char* kShapesWithoutSignature =
+    "FROM shapes WHERE NOT EXISTS (SELECT 1 FROM signatures WHERE signatures.id = "
+    "shapes.signature)";
+inline constexpr const char* kSignaturesWithoutShape =
+    "FROM signatures WHERE NOT EXISTS (SELECT 1 FROM shapes WHERE shapes.signature = "
+    "signatures.id)";
+
 /// Throw Error(kInput) naming the database `place` and the row that is damaged.
 [[nodiscard]] ShapeRow read_shape(const Rows& row, const std::string& place);
 [[nodiscard]] ShapeData read_data(const Rows& row, const std::string& place, int first_column = 0);

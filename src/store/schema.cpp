@@ -196,10 +196,10 @@ int check_version(Connection& connection) {
 }
 
 void migrate(Connection& connection) {
-  if (check_version(connection) == kSchemaVersion) return;
   Transaction transaction(connection, Connection::Mode::kWrite);
   // Another process may have done it while this one waited for its turn.
   const int version = check_version(connection);
+  if (version == kSchemaVersion) return;
   const auto& [oldest, steps] = connection.schema();
   for (int to = version == 0 ? oldest : version + 1; to <= kSchemaVersion; ++to) {
     connection.run_script(steps[to - oldest]);

@@ -32,6 +32,7 @@ class CliTest(unittest.TestCase):
 
     def put(self, name, content):
         path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
         return path
 

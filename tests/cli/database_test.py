@@ -76,9 +76,7 @@ class DatabaseTest(cli.CliTest):
         self.database = self.folder / "shapes.db"
 
     def shape(self, name, kind="ball", seed=1):
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(shapes.xyz(solid(kind, seed)))
+        self.put(name, shapes.xyz(solid(kind, seed)))
         return name
 
     def shelf(self):

@@ -33,10 +33,6 @@ class Faults(database_test.DatabaseTest):
             self.put(f"models/{i}.xyz", shapes.xyz(
                 database_test.solid(kind, i, 800)))
 
-    def put(self, name, content):
-        (self.folder / name).parent.mkdir(exist_ok=True)
-        return super().put(name, content)
-
     def start(self, place="shapes.db", *arguments):
         return subprocess.Popen([cli.MORSEL, "index", "--database", place, "models", "--threads",
                                  "1", *arguments], cwd=self.folder, env=self.environment,

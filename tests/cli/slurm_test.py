@@ -111,10 +111,6 @@ class Slurm(database_test.DatabaseTest):
         self.wait("nodes", lambda: self.ask("sinfo", "--noheader", "--Node", "--format=%T")
                   .split() == ["idle", "idle"])
 
-    def put(self, name, content):
-        (self.folder / name).parent.mkdir(exist_ok=True)
-        return super().put(name, content)
-
     def daemon(self, *command):
         with (self.cluster / f"{len(list(self.cluster.iterdir()))}.log").open("wb") as log:
             process = subprocess.Popen(command, env=self.environment, stdout=log, stderr=log,
