@@ -31,8 +31,8 @@ _morsel() {
     segment)
       options="--labels --output --report --picture --html --parts --merge-ratio $segmenting $mesh" ;;
     index) options="--database --class --tag --shard --status $segmenting $mesh" ;;
-    search) options="--database --top --json --picture $score $mesh" ;;
-    compare) options="--database --json --picture $score $mesh" ;;
+    search) options="--database --top --json --picture --same-scale $score $mesh" ;;
+    compare) options="--database --json --picture --same-scale $score $mesh" ;;
     matrix) options="--database --output --picture $score --threads --help" ;;
     serve) options='--database --host --port --token --most-upload --threads --help' ;;
     list) options='--database --class --tag --json --help' ;;
@@ -51,7 +51,7 @@ _morsel() {
   fi
   case $prev in
     --method) _morsel_words 'default paper' ;;
-    --mode) _morsel_words 'rigid articulated' ;;
+    --mode) _morsel_words 'rigid articulated partial' ;;
     --denoise) _morsel_words 'auto off 1 2 3' ;;
     --labels) _morsel_files ;;
     --database) _morsel_files db ;;

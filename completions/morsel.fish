@@ -57,6 +57,7 @@ complete -c morsel -n '__fish_seen_subcommand_from list' -x -l class -d 'Only sh
 complete -c morsel -n '__fish_seen_subcommand_from index list' -x -l tag -d 'Tag the shapes; only shapes with it'
 complete -c morsel -n '__fish_seen_subcommand_from search' -x -l top -d 'Show this many'
 complete -c morsel -n $printing -f -l json -d 'Print JSON instead of a table'
-complete -c morsel -n $scoring -x -l mode -a 'rigid articulated' -d 'Also shapes that were bent'
+complete -c morsel -n $scoring -x -l mode -a 'rigid articulated partial' -d 'Also shapes that were bent, or pieces'
+complete -c morsel -n '__fish_seen_subcommand_from search compare' -f -l same-scale -d 'A piece has the unit of the whole'
 complete -c morsel -n $scoring -f -l no-mirror -d 'A mirror image is another shape'
 complete -c morsel -n '__fish_seen_subcommand_from show' -r -F -l thumbnail -d 'Draw a small picture'

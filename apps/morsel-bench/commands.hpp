@@ -8,6 +8,7 @@ namespace morsel::bench {
 void add_articulated(CLI::App& app);
 void add_database(CLI::App& app);
 void add_interior(CLI::App& app);
+void add_partial(CLI::App& app);
 void add_retrieval(CLI::App& app);
 void add_search(CLI::App& app);
 void add_segmentation(CLI::App& app);

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "nearest.hpp"
+#include "base/point_tree.hpp"
 
 namespace morsel::bench {
 namespace {
@@ -38,11 +38,11 @@ double refinement_error(std::uint64_t overlap, std::uint64_t part) {
 }
 
 double one_way_discrepancy(const Cuts& from, const Cuts& to) {
-  const NearestPoint nearest(to.midpoints);
+  const PointTree tree(to.midpoints);
   double sum = 0.0;
   double length = 0.0;
   for (std::size_t i = 0; i < from.midpoints.size(); ++i) {
-    sum += from.lengths[i] * nearest.find(from.midpoints[i]).distance;
+    sum += from.lengths[i] * tree.nearest(from.midpoints[i]).distance;
     length += from.lengths[i];
   }
   return length > 0.0 ? sum / length : 0.0;

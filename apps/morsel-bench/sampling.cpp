@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/box.hpp"
+#include "base/point_tree.hpp"
 #include "base/random.hpp"
-#include "nearest.hpp"
 
 namespace morsel::bench {
 namespace {
@@ -134,9 +134,9 @@ std::vector<int> face_labels(const TriangleMesh& mesh, const Cloud& cloud,
     begin = end;
   }
 
-  const NearestPoint nearest(std::span(cloud.points).first(cloud.sample_count()));
+  const PointTree tree(std::span(cloud.points).first(cloud.sample_count()));
   for (std::size_t face = 0; face < result.size(); ++face) {
-    if (most[face] == 0) result[face] = labels[nearest.find(centroid(mesh, face)).index];
+    if (most[face] == 0) result[face] = labels[tree.nearest(centroid(mesh, face)).index];
   }
   return result;
 }

@@ -22,6 +22,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   morsel compare cat.off dog.off                        two files
   morsel compare cat.off dog.off --picture both.png
+  morsel compare cat.off paw.xyz --mode partial         where B is a piece of A
   morsel compare --database shapes.db scan.ply models/cat.off
 
 A and B are looked up among the names in the database, if one is given, then taken as files.)";
@@ -78,10 +79,12 @@ int run_compare(const Arguments& arguments) {
   Task task;
   const Subject a = find_subject(arguments.a, stored, arguments.read, task.progress());
   const Subject b = find_subject(arguments.b, stored, arguments.read, task.progress());
-  const Match result = match(a.signature, b.signature, arguments.match);
+  const Match result = match_subjects(a, b, arguments.match);
   task.begin_writing();
   if (!arguments.picture.path.empty()) {
-    write_png(arguments.picture.path, draw_aligned(a, {{&b, result}}));
+    const bool partial = arguments.match.mode == MatchMode::kPartial;
+    write_png(arguments.picture.path,
+              partial ? draw_placed(b, {{&a, result}}) : draw_aligned(a, {{&b, result}}));
   }
   say(arguments.json ? json_text(a, b, result) : table(a, b, result));
   return kDone;

@@ -86,7 +86,7 @@ void add_matrix(CLI::App& app, Command& chosen) {
              "The scores, with the shapes' names in the first row and column")
       ->required();
   add_output(*command, "--picture", "FILE.png", arguments->picture, "The scores as a heat map");
-  add_match_options(*command, arguments->match);
+  add_match_options(*command, arguments->match, {MatchMode::kRigid, MatchMode::kArticulated});
   add_threads(*command, arguments->threads, "Score");
   command->footer(kExamples);
   command->group("Look-alikes");

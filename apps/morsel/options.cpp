@@ -1,9 +1,12 @@
 #include "options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "numbers.hpp"
 
@@ -97,21 +100,29 @@ void check_method_options(const CLI::App& app, const SegmentOptions& options) {
   }
 }
 
-void add_match_options(CLI::App& app, MatchOptions& options) {
+void add_match_options(CLI::App& app, MatchOptions& options, const std::vector<MatchMode>& modes) {
   add(app, "--method", "default|paper", "Which score: ours or the paper's [default]",
       [&options](const std::string& name, const std::string& text) {
         options.method = method_of(name, text);
       })
       ->group("Score");
-  add(app, "--mode", "rigid|articulated",
-      "Whether a shape that was bent is another one, or the same [rigid]",
-      [&options](const std::string& name, const std::string& text) {
-        if (text != "rigid" && text != "articulated") {
-          throw CLI::ValidationError(name, fmt::format("'{}' is not rigid or articulated", text));
+  std::vector<std::string_view> names;
+  for (const MatchMode mode : modes) names.push_back(mode_name(mode));
+  const std::string choice = fmt::format("{}", fmt::join(names, "|"));
+  add(app, "--mode", choice.c_str(), "What else is the same: one that was bent, a piece [rigid]",
+      [&options, names, choice](const std::string& name, const std::string& text) {
+        if (std::ranges::find(names, text) == names.end()) {
+          throw CLI::ValidationError(name, fmt::format("'{}' is none of {}", text, choice));
         }
-        options.mode = text == "rigid" ? MatchMode::kRigid : MatchMode::kArticulated;
+        options.mode = mode_named(text).value();
       })
       ->group("Score");
+  if (std::ranges::find(modes, MatchMode::kPartial) != modes.end()) {
+    app.add_flag_callback(
+           "--same-scale", [&options] { options.same_scale = true; },
+           "A piece has the unit of what it is compared with (--mode partial)")
+        ->group("Score");
+  }
   app.add_flag_callback(
          "--no-mirror", [&options] { options.mirror = false; },
          "A shape and its mirror image are two shapes")

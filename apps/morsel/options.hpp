@@ -38,8 +38,8 @@ void check_method_options(const CLI::App& app, const SegmentOptions& options);
 /// --threads, in the group `group`.
 void add_threads(CLI::App& app, int& threads, const std::string& group);
 
-/// --method, --mode and --no-mirror of the score.
-void add_match_options(CLI::App& app, MatchOptions& options);
+/// --method, --mode, one of `modes`, and --no-mirror of the score; --same-scale with kPartial.
+void add_match_options(CLI::App& app, MatchOptions& options, const std::vector<MatchMode>& modes);
 
 /// An option that names a file to be written.
 CLI::Option* add_output(CLI::App& app, const std::string& names, const char* value, Output& output,

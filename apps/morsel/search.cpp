@@ -25,6 +25,7 @@ constexpr const char* kExamples = R"(Examples:
   morsel search --database shapes.db scan.ply --top 5
   morsel search --database shapes.db models/cat.off     a shape that is stored already
   morsel search --database shapes.db scan.ply --picture hits.png
+  morsel search --database shapes.db limb.xyz --mode partial     what is it a piece of?
   morsel search --database shapes.db scan.ply --json | jq '.hits[0]'
 
 QUERY is looked up among the stored names first, then taken as a file.)";
@@ -44,7 +45,7 @@ struct Answer {
   Subject query;
   std::vector<LookAlike> hits;
   std::vector<Subject> shapes;  // of the hits
-  std::vector<Match> matches;   // target: the query
+  std::vector<Match> matches;   // target: the query; in partial mode it is the source
 };
 
 // Columns as wide as their widest entry.
@@ -67,7 +68,7 @@ std::string json_text(const Answer& answer, const Arguments& arguments) {
   json["query"] = answer.query.name;
   json["database"] = answer.database;
   json["method"] = arguments.match.method == Method::kPaper ? "paper" : "default";
-  json["mode"] = arguments.match.mode == MatchMode::kArticulated ? "articulated" : "rigid";
+  json["mode"] = mode_name(arguments.match.mode);
   json["hits"] = Json::array();
   for (std::size_t i = 0; i < answer.hits.size(); ++i) {
     const LookAlike& hit = answer.hits[i];
@@ -88,14 +89,30 @@ Answer find_answer(const Arguments& arguments, const Progress& progress) {
   Answer answer;
   answer.database = database.file().string();
   answer.query = find_subject(arguments.query, &database, arguments.read, progress);
-  answer.hits = database.search(answer.query.signature, arguments.top, arguments.match);
+  const bool partial = arguments.match.mode == MatchMode::kPartial;
+  answer.hits = partial
+                    ? database.search_partial(answer.query.sketch, arguments.top, arguments.match,
+                                              arguments.read.threads, &progress)
+                    : database.search(answer.query.signature, arguments.top, arguments.match);
   if (!arguments.json && arguments.picture.path.empty()) return answer;
   for (const LookAlike& hit : answer.hits) {
     answer.shapes.push_back(stored_subject(database, hit.info.name));
-    answer.matches.push_back(
-        match(answer.query.signature, answer.shapes.back().signature, arguments.match));
+    const Subject& shape = answer.shapes.back();
+    answer.matches.push_back(partial ? match_subjects(shape, answer.query, arguments.match)
+                                     : match_subjects(answer.query, shape, arguments.match));
   }
   return answer;
+}
+
+Image draw(const Answer& answer, MatchMode mode) {
+  std::vector<Aligned> aligned;
+  std::vector<Placed> placed;
+  for (std::size_t i = 0; i < answer.hits.size(); ++i) {
+    aligned.push_back({&answer.shapes[i], answer.matches[i]});
+    placed.push_back({&answer.shapes[i], answer.matches[i]});
+  }
+  return mode == MatchMode::kPartial ? draw_placed(answer.query, placed)
+                                     : draw_aligned(answer.query, aligned);
 }
 
 int run_search(const Arguments& arguments) {
@@ -105,11 +122,7 @@ int run_search(const Arguments& arguments) {
   const Answer answer = find_answer(arguments, task.progress());
   task.begin_writing();
   if (!arguments.picture.path.empty()) {
-    std::vector<Aligned> others;
-    for (std::size_t i = 0; i < answer.hits.size(); ++i) {
-      others.push_back({&answer.shapes[i], answer.matches[i]});
-    }
-    write_png(arguments.picture.path, draw_aligned(answer.query, others));
+    write_png(arguments.picture.path, draw(answer, arguments.match.mode));
   }
   say(arguments.json ? json_text(answer, arguments) : table(answer));
   return kDone;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <morsel/error.hpp>
+#include <morsel/partial.hpp>
 #include <morsel/picture.hpp>
 #include <system_error>
 #include <utility>
@@ -29,6 +30,15 @@ Subject read_subject(const std::string& file, const ReadOptions& options,
   return {file == "-" ? "standard input" : file, std::move(signature), make_sketch(result)};
 }
 
+constexpr std::size_t kColumns = 5;  // of a sheet
+
+PictureOptions cell_options() {
+  PictureOptions options;
+  options.width = 240;
+  options.views = 1;
+  return options;
+}
+
 [[noreturn]] void fail_unknown(const std::string& text, const Database* database) {
   if (database == nullptr) {
     throw Error(ErrorCode::kInput,
@@ -46,7 +56,8 @@ Subject read_subject(const std::string& file, const ReadOptions& options,
 }  // namespace
 
 void add_comparison_options(CLI::App& command, MatchOptions& match, ReadOptions& read) {
-  add_match_options(command, match);
+  add_match_options(command, match,
+                    {MatchMode::kRigid, MatchMode::kArticulated, MatchMode::kPartial});
   add_mesh_options(command, read.sample);
   add_threads(command, read.threads, "Sampling (meshes only)");
 }
@@ -64,6 +75,14 @@ Subject find_subject(const std::string& text, const Database* database, const Re
   return read_subject(text, options, progress);
 }
 
+Match match_subjects(const Subject& target, const Subject& source, const MatchOptions& options) {
+  if (options.mode != MatchMode::kPartial) {
+    return match(target.signature, source.signature, options);
+  }
+  return match_partial(Surface(target.sketch.points, target.sketch.parts),
+                       Surface(source.sketch.points, source.sketch.parts), options);
+}
+
 std::string score_bar(double score) {
   constexpr std::size_t kWidth = 20;
   const auto filled = static_cast<std::size_t>(std::lround(kWidth * std::clamp(score, 0.0, 1.0)));
@@ -71,10 +90,7 @@ std::string score_bar(double score) {
 }
 
 Image draw_aligned(const Subject& first, const std::vector<Aligned>& others) {
-  constexpr std::size_t kColumns = 5;
-  PictureOptions options;
-  options.width = 240;
-  options.views = 1;
+  PictureOptions options = cell_options();
   options.pose_of = first.sketch.points;
   std::vector<Image> cells{render_parts(first.sketch.points, first.sketch.parts, options)};
   std::vector<std::string> captions{first.name};
@@ -83,6 +99,22 @@ Image draw_aligned(const Subject& first, const std::vector<Aligned>& others) {
     cells.push_back(render_parts(on_target(other.match, sketch.points),
                                  parts_on_target(other.match, sketch.parts), options));
     captions.push_back(fmt::format("{:.3f} {}", other.match.score, other.shape->name));
+  }
+  return make_sheet(cells, captions, std::min(kColumns, cells.size()));
+}
+
+Image draw_placed(const Subject& piece, const std::vector<Placed>& wholes) {
+  const PictureOptions options = cell_options();
+  std::vector<Image> cells{render_parts(piece.sketch.points, piece.sketch.parts, options)};
+  std::vector<std::string> captions{piece.name};
+  for (const Placed& placed : wholes) {
+    std::vector<Vec3> points = placed.whole->sketch.points;
+    std::vector<int> parts(points.size(), -1);
+    const std::vector<Vec3> on_it = on_target(placed.match, piece.sketch.points);
+    points.insert(points.end(), on_it.begin(), on_it.end());
+    parts.insert(parts.end(), piece.sketch.parts.begin(), piece.sketch.parts.end());
+    cells.push_back(render_parts(points, parts, options));
+    captions.push_back(fmt::format("{:.3f} {}", placed.match.score, placed.whole->name));
   }
   return make_sheet(cells, captions, std::min(kColumns, cells.size()));
 }

@@ -33,6 +33,10 @@ void add_comparison_options(CLI::App& command, MatchOptions& match, ReadOptions&
 
 [[nodiscard]] Subject stored_subject(const Database& database, const std::string& name);
 
+/// In partial mode the source is the piece.
+[[nodiscard]] Match match_subjects(const Subject& target, const Subject& source,
+                                   const MatchOptions& options);
+
 /// "########..", 20 wide.
 [[nodiscard]] std::string score_bar(double score);
 
@@ -43,6 +47,13 @@ struct Aligned {
   Match match;  ///< target: the first shape
 };
 [[nodiscard]] Image draw_aligned(const Subject& first, const std::vector<Aligned>& others);
+
+/// A piece, then each whole in grey with the piece where it lies on it.
+struct Placed {
+  const Subject* whole;
+  Match match;  ///< target: the whole, source: the piece
+};
+[[nodiscard]] Image draw_placed(const Subject& piece, const std::vector<Placed>& wholes);
 
 /// "name, name"
 [[nodiscard]] std::string join_tags(const std::vector<std::string>& tags);

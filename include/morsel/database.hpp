@@ -141,6 +141,11 @@ class Database {
   /// to date: O(shapes) on the disk, O(changes) from a server.
   [[nodiscard]] std::vector<LookAlike> search(const Signature& query, std::size_t top,
                                               const MatchOptions& options = {}) const;
+  /// The `top` shapes that a piece fits best, best first, as search_partial() finds them among the
+  /// sketches; `options.mode` is kPartial. Cost: O(shapes), some milliseconds each.
+  [[nodiscard]] std::vector<LookAlike> search_partial(const Sketch& piece, std::size_t top,
+                                                      const MatchOptions& options, int threads = 0,
+                                                      const Progress* progress = nullptr) const;
   /// Cost: O(shapes²) scores on `threads` threads (0: all cores).
   [[nodiscard]] SimilarityMatrix matrix(const MatchOptions& options = {}, int threads = 0,
                                         const Progress* progress = nullptr) const;

@@ -7,8 +7,10 @@
 #include <morsel/interior.hpp>
 #include <morsel/signature.hpp>
 #include <morsel/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace morsel {
@@ -17,15 +19,23 @@ namespace morsel {
 enum class MatchMode : std::uint8_t {
   kRigid,        ///< turned, moved, scaled and, if allowed, mirrored
   kArticulated,  ///< also bent at its joints: only what bending keeps, or nearly keeps, is compared
+  kPartial,      ///< a piece of it, turned, moved and scaled; partial.hpp has the functions
 };
+
+/// "rigid", "articulated", "partial".
+[[nodiscard]] std::string_view mode_name(MatchMode mode);
+/// The mode of that name, if there is one.
+[[nodiscard]] std::optional<MatchMode> mode_named(std::string_view name);
 
 /// How two shapes are compared.
 struct MatchOptions {
   Method method = Method::kDefault;  ///< the paper's score over weighted points, or the default one
   bool mirror = true;                ///< a shape and its mirror image count as the same
   MatchMode mode = MatchMode::kRigid;
+  bool same_scale = false;  ///< in partial mode: both are in the same unit and keep their size
 
-  /// Throws Error(kUsage) for the paper's method in articulated mode: it knows nothing of bending.
+  /// Throws Error(kUsage) for the paper's method in other modes than rigid: it knows nothing of
+  /// bending or pieces; and for `same_scale` in other modes than partial.
   void check() const;
 };
 
@@ -51,7 +61,9 @@ struct Match {
   std::vector<int> unmatched_source;
 };
 
-/// Scores and aligns two shapes. Thread-safe, deterministic.
+/// Scores and aligns two shapes. Thread-safe, deterministic. Like all that compares signatures, it
+/// throws Error(kUsage) in partial mode: a signature is of the whole shape; match_partial() lays
+/// points onto points.
 /// Method::kPaper: heaviest parts onto each other, then the best of the alignments of one other
 /// part with another. Source: Dey, Giesen, Goswami 2004, section 4. Differs: docs/signature.md.
 [[nodiscard]] Match match(const Signature& target, const Signature& source,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _morsel
 from ._files import check_sampling, existing
-from ._match import Comparable, signature_bytes
+from ._match import Comparable, refuse_same_scale, segmentation, signature_bytes
 from ._points import Path, PointsLike, Progress
 from ._segment import Segmentation, segment
 from ._signature import Signature
@@ -194,18 +194,24 @@ class Database:
         self._file.rename(old, new)
 
     def search(self, query: Comparable, top: int = 10, *, method: str = "default",
-               mode: str = "rigid", mirror: bool = True) -> builtins.list[LookAlike]:
+               mode: str = "rigid", mirror: bool = True,
+               same_scale: bool = False) -> builtins.list[LookAlike]:
         """The shapes most like the query, best first, equal scores by name.
 
         Args:
             query: a segmentation, a signature, or points, which are segmented first.
             top: how many, at least 1.
-            method, mode, mirror: as in match().
+            method, mode, mirror, same_scale: as in match(); with mode "partial" the query is a piece.
         """
         if top < 1:
             raise ValueError(f"top is {top}; it must be at least 1")
-        return [LookAlike(ShapeInfo(*info), score) for info, score in
-                self._file.search(signature_bytes(query), top, method, mode, mirror)]
+        if mode == "partial":
+            found = self._file.search_partial(segmentation(query)._shape, top, method, mirror,
+                                              same_scale)
+        else:
+            refuse_same_scale(mode, same_scale)
+            found = self._file.search(signature_bytes(query), top, method, mode, mirror)
+        return [LookAlike(ShapeInfo(*info), score) for info, score in found]
 
     def matrix(self, *, method: str = "default", mode: str = "rigid",
                mirror: bool = True, threads: int = 0, progress: Progress | None = None) -> SimilarityMatrix:

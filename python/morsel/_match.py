@@ -52,15 +52,17 @@ class Match:
 
 
 def match(target: Comparable, source: Comparable, *, method: str = "default",
-          mode: str = "rigid", mirror: bool = True) -> Match:
+          mode: str = "rigid", mirror: bool = True, same_scale: bool = False) -> Match:
     """Scores two shapes and aligns them.
 
     Args:
         target, source: segmentations, signatures, or points, which are segmented first.
         method: which score, "default" or the "paper"'s over weighted points.
         mode: what counts as one shape: "rigid", what can be turned onto each other; "articulated",
-            also what was bent at its joints (no such mode with the paper's method).
+            also what was bent at its joints; "partial", also a piece of it: the source, of the target.
+            Pieces are found by points: no signatures. The paper's method is "rigid" alone.
         mirror: a shape and its mirror image count as the same.
+        same_scale: a piece has the target's unit; otherwise its scale is found along.
 
     >>> half = morsel.segment(0.5 * points)
     >>> found = morsel.match(shape, half)
@@ -70,10 +72,26 @@ def match(target: Comparable, source: Comparable, *, method: str = "default",
     ...                  4 * np.eye(3), atol=0.02))
     True
     """
-    score, matrix, mirrored, pairs, unmatched_target, unmatched_source = _morsel.match(
-        signature_bytes(target), signature_bytes(source), method, mode, mirror)
+    if mode == "partial":
+        found = _morsel.match_partial(segmentation(target)._shape, segmentation(source)._shape,
+                                      method, mirror, same_scale)
+    else:
+        refuse_same_scale(mode, same_scale)
+        found = _morsel.match(signature_bytes(target), signature_bytes(source), method, mode, mirror)
+    score, matrix, mirrored, pairs, unmatched_target, unmatched_source = found
     return Match(score, matrix, mirrored, [Correspondence(*pair) for pair in pairs],
                  unmatched_target, unmatched_source)
+
+
+def refuse_same_scale(mode: str, same_scale: bool) -> None:
+    if same_scale:
+        raise ValueError(f"same_scale: only the mode 'partial' tells scales apart, not {mode!r}")
+
+
+def segmentation(shape: Comparable) -> Segmentation:
+    if isinstance(shape, Signature):
+        raise ValueError("a signature is of a whole shape; the mode 'partial' needs a segmentation or points")
+    return shape if isinstance(shape, Segmentation) else segment(shape)
 
 
 def signature_bytes(shape: Comparable) -> bytes:

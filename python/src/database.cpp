@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <morsel/database.hpp>
+#include <morsel/sketch.hpp>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -148,15 +149,25 @@ void rename(const File& file, const std::string& from, const std::string& to) {
   short_work([&] { database->rename(from, to); });
 }
 
+py::list list_of(const std::vector<LookAlike>& found) {
+  py::list list;
+  for (const LookAlike& hit : found) list.append(py::make_tuple(tuple_of(hit.info), hit.score));
+  return list;
+}
+
 py::list search(const File& file, const std::string& query, std::size_t top,
                 const std::string& method, const std::string& mode, bool mirror) {
   const std::shared_ptr<Database> database = file.database();
   const MatchOptions options = match_options(method, mode, mirror);
-  const std::vector<LookAlike> found =
-      short_work([&] { return database->search(signature_of(query), top, options); });
-  py::list list;
-  for (const LookAlike& hit : found) list.append(py::make_tuple(tuple_of(hit.info), hit.score));
-  return list;
+  return list_of(short_work([&] { return database->search(signature_of(query), top, options); }));
+}
+
+py::list search_partial(const File& file, const CutShape& query, std::size_t top,
+                        const std::string& method, bool mirror, bool same_scale) {
+  const std::shared_ptr<Database> database = file.database();
+  const MatchOptions options = match_options(method, "partial", mirror, same_scale);
+  return list_of(short_work(
+      [&] { return database->search_partial(make_sketch(*query.segmentation()), top, options); }));
 }
 
 py::tuple matrix(const File& file, const std::string& method, const std::string& mode, bool mirror,
@@ -193,6 +204,8 @@ void bind_database(py::module_& module) {
       .def("rename", &rename, py::arg("old"), py::arg("new"))
       .def("search", &search, py::arg("query"), py::arg("top"), py::arg("method"), py::arg("mode"),
            py::arg("mirror"))
+      .def("search_partial", &search_partial, py::arg("query"), py::arg("top"), py::arg("method"),
+           py::arg("mirror"), py::arg("same_scale"))
       .def("matrix", &matrix, py::arg("method"), py::arg("mode"), py::arg("mirror"),
            py::arg("threads"), py::arg("progress"));
 }

@@ -11,9 +11,9 @@ namespace morsel::python {
 /// "default" or "paper". Throws Error(kUsage).
 [[nodiscard]] Method method_of(const std::string& name);
 
-/// `mode` is "rigid" or "articulated". Throws Error(kUsage), also for a mode that the method lacks.
+/// Throws Error(kUsage), also for a mode that the method lacks.
 [[nodiscard]] MatchOptions match_options(const std::string& method, const std::string& mode,
-                                         bool mirror);
+                                         bool mirror, bool same_scale = false);
 
 /// How to segment; the cut is set apart. `denoise` none: the program decides.
 /// Throws Error(kUsage) that names the value and its range.

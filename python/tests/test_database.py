@@ -54,6 +54,10 @@ def test_search(database, toys):
     assert len(database.search(query.points)) == 3
     assert database.search(query, method="paper")[0].score <= 1
     assert database.search(query, mode="articulated")[0].name == "ring"
+    half = query.points[query.points[:, 0] < 0.05]
+    assert database.search(half, mode="partial")[0].name == "ring"
+    with pytest.raises(ValueError, match="only the mode 'partial'"):
+        database.search(query, same_scale=True)
     with pytest.raises(ValueError, match="top is 0"):
         database.search(query, top=0)
 

@@ -70,7 +70,22 @@ def test_articulated(target):
     assert {pair.target for pair in found.correspondences} == {0, 1, 2}
     assert {pair.source for pair in found.correspondences} == {0, 1}
     assert found.unmatched_source == [] and found.unmatched_target == []
-    with pytest.raises(ValueError, match="'rigid' or 'articulated'"):
+    with pytest.raises(ValueError, match="'rigid', 'articulated' or 'partial'"):
         morsel.match(target, other, mode="bent")
     with pytest.raises(ValueError, match="no articulated mode"):
         morsel.match(target, other, mode="articulated", method="paper")
+
+
+def test_partial(target):
+    points = target.points
+    piece = 3 * points[points[:, 2] > 0.5][:, [1, 0, 2]]
+    found = morsel.match(target, piece, mode="partial")
+    assert found.score > 0.85
+    assert np.cbrt(abs(np.linalg.det(found.target_from_source[:3, :3]))) == pytest.approx(1 / 3, rel=0.05)
+    assert found.score > morsel.match(target, piece, mode="partial", same_scale=True).score + 0.1
+    with pytest.raises(ValueError, match="of a whole shape"):
+        morsel.match(target.signature, piece, mode="partial")
+    with pytest.raises(ValueError, match="only the mode 'partial'"):
+        morsel.match(target, piece, same_scale=True)
+    with pytest.raises(ValueError, match="no partial mode"):
+        morsel.match(target, piece, mode="partial", method="paper")

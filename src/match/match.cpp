@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <morsel/error.hpp>
@@ -12,6 +15,9 @@
 
 namespace morsel {
 namespace {
+
+// In the order of MatchMode.
+constexpr std::array<std::string_view, 3> kModeNames{"rigid", "articulated", "partial"};
 
 // x ↦ scale · turn · (x - source centroid) + target centroid + shift.
 std::array<double, 16> transform(const Signature& target, const Signature& source,
@@ -115,14 +121,34 @@ bool comparable(const Signature& a, const Signature& b) { return (a.size > 0.0) 
 
 }  // namespace
 
+std::string_view mode_name(MatchMode mode) { return kModeNames[static_cast<std::size_t>(mode)]; }
+
+std::optional<MatchMode> mode_named(std::string_view name) {
+  const auto* const at = std::ranges::find(kModeNames, name);
+  if (at == kModeNames.end()) return std::nullopt;
+  return static_cast<MatchMode>(at - kModeNames.begin());
+}
+
 void MatchOptions::check() const {
-  if (method == Method::kPaper && mode == MatchMode::kArticulated) {
-    throw Error(ErrorCode::kUsage, "mode: the paper's score has no articulated mode; use rigid");
+  if (method == Method::kPaper && mode != MatchMode::kRigid) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("mode: the paper's score has no {} mode; use rigid", mode_name(mode)));
+  }
+  if (same_scale && mode != MatchMode::kPartial) {
+    throw Error(ErrorCode::kUsage, "same_scale: only the partial mode tells scales apart");
+  }
+}
+
+void check_for_signatures(const MatchOptions& options) {
+  options.check();
+  if (options.mode == MatchMode::kPartial) {
+    throw Error(ErrorCode::kUsage,
+                "mode: signatures are of whole shapes; the partial mode compares their points");
   }
 }
 
 double match_score(const Signature& a, const Signature& b, const MatchOptions& options) {
-  options.check();
+  check_for_signatures(options);
   if (!comparable(a, b)) return 0.0;
   if (options.method == Method::kPaper) return paper_score(a, b, options.mirror).score;
   const auto tables_a = tables_of(a);
@@ -133,7 +159,7 @@ double match_score(const Signature& a, const Signature& b, const MatchOptions& o
 }
 
 Match match(const Signature& target, const Signature& source, const MatchOptions& options) {
-  options.check();
+  check_for_signatures(options);
   Match result;
   const std::vector<Blob> to = blobs_of(target);
   const std::vector<Blob> from = blobs_of(source);

@@ -34,6 +34,9 @@ using BlockSums = std::array<std::uint32_t, kTableBlocks.size()>;
   return total / weights;
 }
 
+/// As options.check(), and throws Error(kUsage) in partial mode.
+void check_for_signatures(const MatchOptions& options);
+
 /// The tables of a signature, zeros where it has none.
 [[nodiscard]] std::array<std::uint8_t, kTableSize> tables_of(const Signature& signature);
 

@@ -205,7 +205,7 @@ Signature SearchBlock::signature(std::size_t index) const {
 
 std::vector<Hit> SearchBlock::search(const Signature& query, std::size_t k,
                                      const MatchOptions& options, std::size_t* looked_at) const {
-  options.check();
+  check_for_signatures(options);
   if (k == 0) return {};
   BestShapes best(k);
   std::size_t count = 0;

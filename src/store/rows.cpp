@@ -61,6 +61,22 @@ DataBytes bytes_of(const ShapeData& data) {
           encode_sketch(data.sketch)};
 }
 
+std::string signature_name(const Rows& row, int first_column) {
+  return fmt::format("signature {}", row.integer(first_column));
+}
+
+// What kDataColumns hold, with its checksum; what is not bytes goes to `data`.
+DataBytes read_bytes(const Rows& row, const std::string& place, int first_column, ShapeData& data) {
+  data.content = row.bytes(first_column + 1);
+  data.options = row.bytes(first_column + 2);
+  data.points = static_cast<std::uint64_t>(row.integer(first_column + 3));
+  DataBytes bytes{row.bytes(first_column + 4), row.bytes(first_column + 5)};
+  if (row.integer(first_column + 6) != checksum_of(data, bytes)) {
+    fail(place, signature_name(row, first_column), "the row does not have its checksum");
+  }
+  return bytes;
+}
+
 // Names must be UTF-8: they go into JSON.
 bool is_utf8(const std::string& text) {
   try {
@@ -121,16 +137,9 @@ ShapeRow read_shape(const Rows& row, const std::string& place) {
 }
 
 ShapeData read_data(const Rows& row, const std::string& place, int first_column) {
-  const std::string which = fmt::format("signature {}", row.integer(first_column));
   ShapeData data;
-  data.content = row.bytes(first_column + 1);
-  data.options = row.bytes(first_column + 2);
-  data.points = static_cast<std::uint64_t>(row.integer(first_column + 3));
-  DataBytes bytes{row.bytes(first_column + 4), row.bytes(first_column + 5)};
-  if (row.integer(first_column + 6) != checksum_of(data, bytes)) {
-    fail(place, which, "the row does not have its checksum");
-  }
-  const std::string name = place + ": " + which;
+  DataBytes bytes = read_bytes(row, place, first_column, data);
+  const std::string name = place + ": " + signature_name(row, first_column);
   data.signature = decode(std::as_bytes(std::span(bytes.signature)), name);
   data.sketch = decode_sketch(std::move(bytes.sketch), name);
   return data;
@@ -165,6 +174,21 @@ void each_signature(Connection& connection, const std::string& rest,
     Signature signature = decode(std::as_bytes(std::span(bytes)), which);
     visit(std::move(row), std::move(signature));
   }
+}
+
+std::vector<std::pair<ShapeRow, std::string>> all_sketches(Connection& connection) {
+  constexpr int kDataAt = 7;
+  const auto rows = connection.query(
+      fmt::format("SELECT {}, {} FROM shapes JOIN signatures ON signatures.id = shapes.signature "
+                  "ORDER BY name",
+                  kShapeColumns, kDataColumns));
+  std::vector<std::pair<ShapeRow, std::string>> sketches;
+  while (rows->next()) {
+    ShapeData data;
+    DataBytes bytes = read_bytes(*rows, connection.name(), kDataAt, data);
+    sketches.emplace_back(read_shape(*rows, connection.name()), std::move(bytes.sketch));
+  }
+  return sketches;
 }
 
 std::vector<ShapeRow> all_shapes(Connection& connection) {

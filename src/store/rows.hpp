@@ -7,6 +7,7 @@
 #include <morsel/database.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "store/connection.hpp"
@@ -50,6 +51,8 @@ inline constexpr const char* kSignaturesWithoutShape =
 void each_signature(Connection& connection, const std::string& rest,
                     std::initializer_list<Value> parameters,
                     const std::function<void(ShapeRow, Signature)>& visit);
+/// All shapes by name, each with the bytes of its sketch.
+[[nodiscard]] std::vector<std::pair<ShapeRow, std::string>> all_sketches(Connection& connection);
 /// All shapes by name.
 [[nodiscard]] std::vector<ShapeRow> all_shapes(Connection& connection);
 

@@ -5,12 +5,14 @@
 #include <memory>
 #include <morsel/database.hpp>
 #include <morsel/error.hpp>
+#include <morsel/partial.hpp>
 #include <morsel/search.hpp>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include "base/threads.hpp"
+#include "match/score.hpp"
 #include "store/local_block.hpp"
 #include "store/rows.hpp"
 #include "store/state.hpp"
@@ -65,7 +67,7 @@ std::optional<LookAlike> confirmed(Connection& connection, std::string_view name
 
 std::vector<LookAlike> Database::search(const Signature& query, std::size_t top,
                                         const MatchOptions& options) const {
-  options.check();
+  check_for_signatures(options);
   // A block that does not agree with the database is made anew: once because it is damaged, more
   // often only while others write.
   constexpr int kMostAttempts = 5;
@@ -85,6 +87,24 @@ std::vector<LookAlike> Database::search(const Signature& query, std::size_t top,
   }
   throw Error(ErrorCode::kInput,
               state_->file.string() + ": its search block does not agree with it; run check");
+}
+
+std::vector<LookAlike> Database::search_partial(const Sketch& piece, std::size_t top,
+                                                const MatchOptions& options, int threads,
+                                                const Progress* progress) const {
+  const auto stored =
+      state_->look([&](Connection& connection) { return store::all_sketches(connection); });
+  const auto surface_of = [](const Sketch& sketch) { return Surface(sketch.points, sketch.parts); };
+  const std::vector<Hit> hits = morsel::search_partial(
+      surface_of(piece), stored.size(),
+      [&](std::size_t i) {
+        const auto& [row, bytes] = stored[i];
+        return surface_of(decode_sketch(bytes, state_->file.string() + ": " + row.info.name));
+      },
+      top, options, threads, progress);
+  std::vector<LookAlike> found;
+  for (const Hit& hit : hits) found.push_back({stored[hit.index].first.info, hit.score});
+  return found;
 }
 
 std::optional<std::vector<LookAlike>> Database::State::search_block(const SearchBlock& from,
@@ -154,7 +174,7 @@ SimilarityMatrix score_pairs(NamedSignatures all, const MatchOptions& options, i
 
 SimilarityMatrix Database::matrix(const MatchOptions& options, int threads,
                                   const Progress* progress) const {
-  options.check();
+  check_for_signatures(options);
   NamedSignatures all = state_->look([&](Connection& connection) {
     NamedSignatures found;
     store::each_signature(connection, "ORDER BY name", {}, [&](ShapeRow row, Signature signature) {
@@ -168,7 +188,7 @@ SimilarityMatrix Database::matrix(const MatchOptions& options, int threads,
 SimilarityMatrix Database::matrix_of(std::span<const std::string> names,
                                      const MatchOptions& options, int threads,
                                      const Progress* progress) const {
-  options.check();
+  check_for_signatures(options);
   NamedSignatures chosen = state_->look([&](Connection& connection) {
     NamedSignatures found;
     for (const std::string& name : names) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <morsel/database.hpp>
+#include <morsel/error.hpp>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,27 @@ TEST_P(SearchTest, EqualsTheExhaustiveAnswer) {
       EXPECT_EQ(names_of(database.search(query, top)), best(database, query, top));
     }
   }
+}
+
+TEST_P(SearchTest, FindsWhatAPieceIsOf) {
+  Database database = create();
+  database.put({"dumbbell", {}, {}, {}}, dumbbell_data());
+  const SegmentOptions options;
+  const std::vector<Vec3> torus = shapes::torus(1500, 1.0, 0.4);
+  database.put({"torus", {}, {}, {}},
+               make_shape_data(segment(torus, options), options, content_key(torus, options)));
+  Sketch piece;
+  for (const Vec3& p : shapes::torus(2500, 1.0, 0.4, 2)) {
+    if (p.x + p.y < 0.3) piece.points.push_back(3.0 * Vec3{p.y, p.z, p.x});
+  }
+  piece.parts.assign(piece.points.size(), -1);
+  const MatchOptions partial{.mode = MatchMode::kPartial};
+  const auto hits = database.search_partial(piece, 2, partial);
+  ASSERT_EQ(hits.size(), 2U);
+  EXPECT_EQ(hits[0].info.name, "torus");
+  EXPECT_GT(hits[0].score, 0.8);
+  EXPECT_LT(hits[1].score, hits[0].score - 0.1);
+  EXPECT_THROW((void)database.search(dumbbell_data().signature, 1, partial), Error);
 }
 
 TEST_P(SearchTest, FindsItselfFirst) {

@@ -321,10 +321,27 @@ class Search(DatabaseTest):
             self.assertEqual(len(self.hits("models/ball/0.xyz", *arguments)), 5)
         self.refuse(USAGE, "'best' is not default or paper", "search", "--database", "shapes.db",
                     "a", "--method", "best")
-        self.refuse(USAGE, "'bent' is not rigid or articulated", "search", "--database",
+        self.refuse(USAGE, "'bent' is none of rigid|articulated|partial", "search", "--database",
                     "shapes.db", "a", "--mode", "bent")
         self.refuse(USAGE, "no articulated mode", "search", "--database", "shapes.db", "a",
                     "--mode", "articulated", "--method", "paper")
+
+    def test_a_piece_finds_its_whole(self):
+        points = (self.folder / "models/ball/0.xyz").read_text().splitlines()
+        piece = [line for line in points if float(line.split()[0]) < 0.2]
+        (self.folder / "piece.xyz").write_text("\n".join(piece))
+        hits = self.hits("piece.xyz", "--mode", "partial", "--top", "3", "--picture", "piece.png")
+        self.assertEqual(hits[0]["class"], "ball")
+        self.assertGreater(hits[0]["score"], 0.8)
+        self.assertTrue((self.folder / "piece.png").read_bytes().startswith(PNG))
+        found = json.loads(self.morsel("compare", "models/ball/0.xyz", "piece.xyz", "--mode", "partial",
+                                       "--same-scale", "--json").stdout)
+        self.assertGreater(found["score"], 0.8)
+        self.refuse(USAGE, "same_scale", "search", "--database", "shapes.db", "a", "--same-scale")
+        self.refuse(USAGE, "no partial mode", "search", "--database", "shapes.db", "a",
+                    "--mode", "partial", "--method", "paper")
+        self.refuse(USAGE, "'partial' is none of rigid|articulated", "matrix", "--database",
+                    "shapes.db", "--mode", "partial")
 
     def test_picture(self):
         self.morsel("search", "models/ball/0.xyz", "--picture", "hits.png")

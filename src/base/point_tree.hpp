@@ -1,4 +1,4 @@
-// morsel-bench: the nearest of a set of points.
+// The nearest of a set of points.
 #pragma once
 
 #include <cmath>
@@ -8,26 +8,31 @@
 #include <nanoflann.hpp>
 #include <span>
 
-namespace morsel::bench {
+namespace morsel {
 
 /// A k-d tree over points that outlive it; there is at least one.
-class NearestPoint {
+class PointTree {
  public:
   struct Hit {
-    std::size_t index = 0;
+    std::uint32_t index = 0;
     double distance = 0.0;
   };
 
-  explicit NearestPoint(std::span<const Vec3> points) : cloud_{points}, tree_(3, cloud_) {}
-  NearestPoint(const NearestPoint&) = delete;
-  NearestPoint& operator=(const NearestPoint&) = delete;
+  explicit PointTree(std::span<const Vec3> points) : cloud_{points}, tree_(3, cloud_) {}
+  PointTree(const PointTree&) = delete;
+  PointTree& operator=(const PointTree&) = delete;
 
-  [[nodiscard]] Hit find(const Vec3& query) const {
-    const double coordinates[3] = {query.x, query.y, query.z};
-    std::uint32_t index = 0;
+  [[nodiscard]] Hit nearest(const Vec3& query) const {
+    Hit hit;
     double squared = 0.0;
-    tree_.knnSearch(coordinates, 1, &index, &squared);
-    return {.index = index, .distance = std::sqrt(squared)};
+    find(query, {&hit.index, 1}, {&squared, 1});
+    hit.distance = std::sqrt(squared);
+    return hit;
+  }
+  /// The nearest as many as `indices` takes, nearest first; there are as many points.
+  void find(const Vec3& query, std::span<std::uint32_t> indices, std::span<double> squared) const {
+    const double coordinates[3] = {query.x, query.y, query.z};
+    tree_.knnSearch(coordinates, indices.size(), indices.data(), squared.data());
   }
 
  private:
@@ -53,4 +58,4 @@ class NearestPoint {
   Tree tree_;
 };
 
-}  // namespace morsel::bench
+}  // namespace morsel
