@@ -7,6 +7,7 @@
 #   scripts/install-dependencies.sh --docs   also what `make docs` needs
 #   scripts/install-dependencies.sh --fuzz   also what `make fuzz` needs
 #   scripts/install-dependencies.sh --test   also what `make test` needs
+#   scripts/install-dependencies.sh --peers  also what `morsel-bench peers` compares with: hundreds
 #   scripts/install-dependencies.sh --dev    also what every other target needs
 set -euo pipefail
 
@@ -24,6 +25,7 @@ fuzz=(clang-16 libclang-rt-16-dev llvm-16)
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest python3-jsonschema mypy
   python3-matplotlib python3-plotly "${docs[@]}" wrk postgresql slurm-wlm munge)
+peers=(libpcl-dev libfaiss-dev python3-gudhi python3-scipy)
 case "${1:-}" in
   "") ;;
   --lint) packages+=("${lint[@]}") ;;
@@ -31,9 +33,10 @@ case "${1:-}" in
   --docs) packages+=("${docs[@]}") ;;
   --fuzz) packages+=("${fuzz[@]}") ;;
   --test) packages+=("${test[@]}") ;;
+  --peers) packages+=("${peers[@]}") ;;
   --dev) packages+=("${test[@]}" "${fuzz[@]}") ;;
   *)
-    echo "usage: $0 [--lint|--python|--docs|--fuzz|--test|--dev]" >&2
+    echo "usage: $0 [--lint|--python|--docs|--fuzz|--test|--peers|--dev]" >&2
     exit 2
     ;;
 esac

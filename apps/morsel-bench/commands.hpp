@@ -9,6 +9,7 @@ void add_articulated(CLI::App& app);
 void add_database(CLI::App& app);
 void add_interior(CLI::App& app);
 void add_partial(CLI::App& app);
+void add_peers(CLI::App& app);
 void add_retrieval(CLI::App& app);
 void add_search(CLI::App& app);
 void add_segmentation(CLI::App& app);

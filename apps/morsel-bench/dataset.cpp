@@ -119,4 +119,14 @@ std::vector<int> read_face_labels(const fs::path& path, std::size_t face_count) 
   return labels;
 }
 
+std::vector<std::vector<int>> read_people(const Model& model, std::size_t face_count) {
+  std::vector<std::vector<int>> people;
+  for (const auto& path : model.people) people.push_back(read_face_labels(path, face_count));
+  if (people.empty()) {
+    throw Error(ErrorCode::kInput,
+                fmt::format("{}: nobody's segmentation is there", model.mesh.string()));
+  }
+  return people;
+}
+
 }  // namespace morsel::bench

@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", morsel::version());
   app.require_subcommand(1);
   morsel::bench::add_segmentation(app);
+  morsel::bench::add_peers(app);
   morsel::bench::add_interior(app);
   morsel::bench::add_retrieval(app);
   morsel::bench::add_articulated(app);

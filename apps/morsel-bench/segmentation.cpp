@@ -98,16 +98,6 @@ Result result_of(const Model& model, const Outcome& outcome) {
   return result;
 }
 
-std::vector<std::vector<int>> read_people(const Model& model, std::size_t face_count) {
-  std::vector<std::vector<int>> people;
-  for (const auto& path : model.people) people.push_back(read_face_labels(path, face_count));
-  if (people.empty()) {
-    throw Error(ErrorCode::kInput,
-                fmt::format("{}: nobody's segmentation is there", model.mesh.string()));
-  }
-  return people;
-}
-
 double mean_part_count(const std::vector<std::vector<int>>& people) {
   double sum = 0.0;
   for (const auto& labels : people) sum += static_cast<double>(count_labels(labels));
