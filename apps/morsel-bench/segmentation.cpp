@@ -1,13 +1,17 @@
 // morsel-bench segmentation: the parts against people's.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "levels.hpp"
@@ -24,6 +28,10 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kPictureWidth = 160;
 constexpr std::size_t kSheetColumns = 10;
+// The best and the worst, enlarged.
+constexpr std::size_t kExtremes = 10;
+constexpr std::size_t kLargeWidth = 320;
+constexpr std::size_t kLargeColumns = 5;
 
 struct Options {
   RunOptions run;
@@ -42,7 +50,20 @@ struct Result {
   double seconds = 0.0;  // of segment() alone
   std::string error;     // why there is no result; the scores are then 1
   Image picture;
+  Image large;
 };
+
+json image_to_json(const Image& image) {
+  return {{"width", image.width}, {"height", image.height}, {"rgb", json::binary(image.rgb)}};
+}
+
+Image image_from_json(const json& object) {
+  Image image;
+  image.width = object.at("width").get<std::size_t>();
+  image.height = object.at("height").get<std::size_t>();
+  image.rgb = object.at("rgb").get_binary();
+  return image;
+}
 
 json scores_to_json(const Scores& scores) {
   json object;
@@ -70,9 +91,8 @@ json to_json(const Result& result) {
           {"volume_ratio", result.volume_ratio},
           {"denoise_rounds", result.denoise_rounds},
           {"seconds", result.seconds},
-          {"width", result.picture.width},
-          {"height", result.picture.height},
-          {"rgb", json::binary(result.picture.rgb)}};
+          {"picture", image_to_json(result.picture)},
+          {"large", image_to_json(result.large)}};
 }
 
 Result result_of(const Model& model, const Outcome& outcome) {
@@ -92,9 +112,8 @@ Result result_of(const Model& model, const Outcome& outcome) {
   result.volume_ratio = value.at("volume_ratio").get<double>();
   result.denoise_rounds = value.at("denoise_rounds").get<int>();
   result.seconds = value.at("seconds").get<double>();
-  result.picture.width = value.at("width").get<std::size_t>();
-  result.picture.height = value.at("height").get<std::size_t>();
-  result.picture.rgb = value.at("rgb").get_binary();
+  result.picture = image_from_json(value.at("picture"));
+  result.large = image_from_json(value.at("large"));
   return result;
 }
 
@@ -137,8 +156,11 @@ Result evaluate(const Model& model, const Options& options, double noise) {
   result.denoise_rounds = segmentation.denoised.rounds;
   result.seconds = std::chrono::duration<double>(end - start).count();
   if (!options.sheet.empty()) {
-    result.picture =
-        render_parts(cloud.points, labels, {.width = kPictureWidth, .views = 1, .title = {}});
+    const auto draw = [&, &own = labels](std::size_t width) {
+      return render_parts(cloud.points, own, {.width = width, .views = 1, .title = {}});
+    };
+    result.picture = draw(kPictureWidth);
+    result.large = draw(kLargeWidth);
   }
   return result;
 }
@@ -265,21 +287,32 @@ ordered_json run_to_json(const std::vector<Result>& results, const Summary& summ
   return run;
 }
 
-// A sheet for each noise level: with several levels, the level goes into the name.
-void write_sheet(const Options& options, const std::vector<Result>& results, double noise) {
-  fs::path path = options.sheet;
-  if (options.run.noise_levels().size() > 1) {
-    const std::string name = fmt::format("{}-{:g}", path.stem().string(), noise);
-    path.replace_filename(name + path.extension().string());
-  }
+void write_pictures(const fs::path& path, std::span<const Result> results, Image Result::*picture,
+                    std::size_t columns) {
   std::vector<Image> pictures;
   std::vector<std::string> captions;
   for (const Result& result : results) {
-    if (result.picture.rgb.empty()) continue;
-    pictures.push_back(result.picture);
+    pictures.push_back(result.*picture);
     captions.push_back(fmt::format("{} {:.3f}", result.id, result.scores[kRand].value()));
   }
-  if (!pictures.empty()) write_png(path, make_sheet(pictures, captions, kSheetColumns));
+  if (!pictures.empty()) write_png(path, make_sheet(pictures, captions, columns));
+}
+
+// All models in order, and the best and the worst. With several noise levels, the level goes into
+// the name.
+void write_sheets(const Options& options, std::vector<Result> results, double noise) {
+  std::erase_if(results, [](const Result& result) { return !result.error.empty(); });
+  std::string name = options.sheet.stem().string();
+  if (options.run.noise_levels().size() > 1) name += fmt::format("-{:g}", noise);
+  const auto path = [&](const std::string& suffix) {
+    return options.sheet.parent_path() / (name + suffix + options.sheet.extension().string());
+  };
+  write_pictures(path(""), results, &Result::picture, kSheetColumns);
+  std::ranges::stable_sort(results, {}, [](const Result& r) { return r.scores[kRand].value(); });
+  const std::size_t count = std::min(kExtremes, results.size());
+  const auto all = std::span<const Result>(results);
+  write_pictures(path("-best"), all.first(count), &Result::large, kLargeColumns);
+  write_pictures(path("-worst"), all.last(count), &Result::large, kLargeColumns);
 }
 
 ordered_json report_level(const Options& options, const std::vector<Model>& models,
@@ -290,7 +323,7 @@ ordered_json report_level(const Options& options, const std::vector<Model>& mode
   }
   const Summary summary = summarize(results);
   print_table(results, summary, noise);
-  if (!options.sheet.empty()) write_sheet(options, results, noise);
+  if (!options.sheet.empty()) write_sheets(options, results, noise);
   return run_to_json(results, summary, noise);
 }
 
@@ -315,7 +348,10 @@ void add_segmentation(CLI::App& app) {
   add_run_options(*command, options->run);
   command->add_flag("--parts-told", options->parts_told,
                     "Cut into the rounded mean of people's part counts");
-  command->add_option("--sheet", options->sheet, "Draw all models with their parts into a PNG");
+  command->add_option(
+      "--sheet", options->sheet,
+      "Draw all models with their parts into a PNG, and the best and worst ten enlarged "
+      "into NAME-best and NAME-worst beside it");
   command->footer(
       "All measures are errors between 0 (equal) and about 1, means over people, then models of a\n"
       "category, then categories. Every face counts the same. The cut discrepancy is taken "
