@@ -16,7 +16,7 @@ _morsel() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
   local shapes='ply|pcd|xyz|txt|pts|csv|off|obj|npy|las|stl|gltf|glb'
   local mesh='--sample --noise --seed --threads --help'
-  local segmenting='--method --big-ball-ratio --deep-angle --denoise'
+  local segmenting='--method --big-ball-ratio --deep-angle --denoise --ground'
   local score='--method --mode --no-mirror'
   local options=''
   COMPREPLY=()
@@ -53,6 +53,7 @@ _morsel() {
     --method) _morsel_words 'default paper' ;;
     --mode) _morsel_words 'rigid articulated partial' ;;
     --denoise) _morsel_words 'auto off 1 2 3' ;;
+    --ground) _morsel_words 'auto keep remove' ;;
     --labels) _morsel_files ;;
     --database) _morsel_files db ;;
     -o | --output)

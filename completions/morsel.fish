@@ -39,6 +39,7 @@ complete -c morsel -n $drawing -r -F -l picture -d 'A drawing: .png, for segment
 complete -c morsel -n $segmenting -x -l big-ball-ratio -d 'Paper: what makes a ball big'
 complete -c morsel -n $segmenting -x -l deep-angle -d 'Paper: what makes balls meet deeply'
 complete -c morsel -n $segmenting -x -l denoise -a 'auto off 1 2 3' -d 'Rounds of smoothing'
+complete -c morsel -n $segmenting -x -l ground -a 'auto keep remove' -d 'The plane that objects stand on'
 complete -c morsel -n $scored_or_cut -x -l method -a 'default paper' -d 'Ours, or the paper’s'
 complete -c morsel -n $threaded -x -l threads -d '0 for all cores'
 complete -c morsel -n $reading -x -l sample -d 'Points on the surface of a mesh'

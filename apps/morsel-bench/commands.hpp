@@ -6,6 +6,7 @@
 namespace morsel::bench {
 
 void add_articulated(CLI::App& app);
+void add_clutter(CLI::App& app);
 void add_database(CLI::App& app);
 void add_interior(CLI::App& app);
 void add_partial(CLI::App& app);

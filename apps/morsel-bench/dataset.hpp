@@ -43,7 +43,8 @@ struct IdFilter {
 [[nodiscard]] std::vector<int> read_face_labels(const std::filesystem::path& path,
                                                 std::size_t face_count);
 
-/// Reads all people's labels of a model's faces, at least one person's. Throws Error(kInput).
+/// The face labels of all people who segmented the model. Throws Error(kInput), also if there are
+/// none.
 [[nodiscard]] std::vector<std::vector<int>> read_people(const Model& model, std::size_t face_count);
 
 }  // namespace morsel::bench

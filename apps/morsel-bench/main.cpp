@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   morsel::bench::add_retrieval(app);
   morsel::bench::add_articulated(app);
   morsel::bench::add_partial(app);
+  morsel::bench::add_clutter(app);
   morsel::bench::add_stability(app);
   morsel::bench::add_search(app);
   morsel::bench::add_database(app);

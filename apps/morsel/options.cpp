@@ -22,6 +22,13 @@ Method method_of(const std::string& name, const std::string& text) {
   throw CLI::ValidationError(name, fmt::format("'{}' is not default or paper", text));
 }
 
+GroundMode ground_mode_of(const std::string& name, const std::string& text) {
+  if (text == "auto") return GroundMode::kAuto;
+  if (text == "keep") return GroundMode::kKeep;
+  if (text == "remove") return GroundMode::kRemove;
+  throw CLI::ValidationError(name, fmt::format("'{}' is not auto, keep or remove", text));
+}
+
 }  // namespace
 
 void add_mesh_options(CLI::App& app, SampleOptions& sample) {
@@ -85,6 +92,12 @@ void add_method_options(CLI::App& app, SegmentOptions& options) {
             text == "off" ? 0 : static_cast<int>(whole_number(name, text, 0, 20));
       })
       ->group("Method");
+  add(app, "--ground", "auto|keep|remove",
+      "The plane that objects stand on: apart where clear, kept, apart in any case [auto]",
+      [&options](const std::string& name, const std::string& text) {
+        options.ground.mode = ground_mode_of(name, text);
+      })
+      ->group("Method");
   add_threads(app, options.threads, "Method");
 }
 
@@ -95,8 +108,10 @@ void check_method_options(const CLI::App& app, const SegmentOptions& options) {
       throw CLI::ValidationError(name, "is an option of the paper's method; add --method paper");
     }
   }
-  if (paper && app.count("--denoise") > 0) {
-    throw CLI::ValidationError("--denoise", "the paper's method takes the points as they are");
+  for (const char* name : {"--denoise", "--ground"}) {
+    if (paper && app.count(name) > 0) {
+      throw CLI::ValidationError(name, "the paper's method takes the points as they are");
+    }
   }
 }
 

@@ -30,7 +30,7 @@ void add_mesh_options(CLI::App& app, SampleOptions& sample);
 /// Those of them that were given.
 [[nodiscard]] std::vector<std::string> given_mesh_options(const CLI::App& app);
 
-/// --method, --big-ball-ratio, --deep-angle, --denoise, --threads.
+/// --method, --big-ball-ratio, --deep-angle, --denoise, --ground, --threads.
 void add_method_options(CLI::App& app, SegmentOptions& options);
 /// Throws CLI::ValidationError for an option that the chosen method would ignore.
 void check_method_options(const CLI::App& app, const SegmentOptions& options);

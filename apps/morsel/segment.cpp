@@ -117,10 +117,14 @@ std::string table(const Segmentation& result) {
     points += part.point_count;
   }
   const auto percent = [](double share, double all) { return all > 0 ? 100.0 * share / all : 0.0; };
-  std::string text = "part  volume %  points %  thickness  neighbours\n";
+  const bool several = result.tree.component_count > 1;
+  std::string text =
+      fmt::format("part  {}volume %  points %  thickness  neighbours\n", several ? "object  " : "");
   for (std::size_t i = 0; i < std::min(kMost, parts.size()); ++i) {
     const Part& part = parts[i];
-    text += fmt::format("{:4}  {:8.1f}  {:8.1f}  {:9.4g}  {}\n", i, percent(part.volume, volume),
+    const std::string object = several ? fmt::format("{:6}  ", part.object) : "";
+    text += fmt::format("{:4}  {}{:8.1f}  {:8.1f}  {:9.4g}  {}\n", i, object,
+                        percent(part.volume, volume),
                         percent(static_cast<double>(part.point_count), static_cast<double>(points)),
                         2.0 * part.ball_radius, neighbor_list(part));
   }

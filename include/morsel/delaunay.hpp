@@ -17,6 +17,8 @@ namespace morsel {
 
 /// Stands for "no cell": what lies beyond the convex hull.
 inline constexpr std::uint32_t kNoCell = 0xffffffffU;
+/// Stands for "no vertex": points of the ground.
+inline constexpr std::uint32_t kNoVertex = 0xffffffffU;
 
 /// The finite part of a 3D Delaunay triangulation.
 ///
@@ -26,7 +28,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffU;
 /// symbolic perturbation, which depends on the coordinates alone.
 struct DelaunayComplex {
   std::vector<Vec3> vertices;                           ///< (v, 3), in the unit of the input
-  std::vector<std::uint32_t> vertex_of_point;           ///< (n), the vertex of each input point
+  std::vector<std::uint32_t> vertex_of_point;           ///< (n), the vertex of each input point,
+                                                        ///< kNoVertex where it was set apart
   std::vector<std::array<std::uint32_t, 4>> cells;      ///< (c, 4) vertices, positively oriented
   std::vector<std::array<std::uint32_t, 4>> neighbors;  ///< (c, 4) the cell opposite each vertex
   std::vector<Vec3> centers;                            ///< (c, 3) centres of the Delaunay balls

@@ -12,6 +12,9 @@
 
 namespace morsel {
 
+/// Stands for "no point": what answers for points of the ground.
+inline constexpr std::uint32_t kNoStandIn = 0xffffffffU;
+
 /// How to treat noise.
 struct DenoiseOptions {
   /// Rounds of smoothing, 0 … 20. Not given: the noise is estimated and the program decides.
@@ -28,7 +31,8 @@ struct Denoised {
   std::vector<Vec3> points;             ///< (m, 3) distinct, in canonical order, outliers left out,
                                         ///< moved where smoothing moved them
   std::vector<std::uint32_t> stand_in;  ///< (n) index into `points` for each input point: its own,
-                                        ///< for an outlier that of the nearest point kept
+                                        ///< for an outlier that of the nearest point kept;
+                                        ///< kNoStandIn in a Segmentation for the ground's
   double noise = 0.0;             ///< estimated standard deviation across the surface, in units
   double spacing = 0.0;           ///< median distance to the twelfth nearest neighbour, in units
   int rounds = 0;                 ///< of smoothing that were done

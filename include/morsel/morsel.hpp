@@ -7,6 +7,7 @@
 #include <morsel/delaunay.hpp>
 #include <morsel/denoise.hpp>
 #include <morsel/error.hpp>
+#include <morsel/ground.hpp>
 #include <morsel/html.hpp>
 #include <morsel/interior.hpp>
 #include <morsel/io.hpp>
@@ -30,6 +31,7 @@ namespace morsel {
 struct SegmentOptions {
   InteriorOptions interior;  ///< holds the method, the paper's or the default, of all stages
   DenoiseOptions denoise;    ///< not used by Method::kPaper, which takes the points as they are
+  GroundOptions ground;      ///< likewise
   CutOptions cut;
   int threads = 0;  ///< 0: all cores. The result does not depend on it.
 
@@ -56,9 +58,11 @@ struct StageCost {
 struct Segmentation {
   Verdict verdict = Verdict::kTooFewPoints;
   std::string message;      ///< one sentence: what was found and, unless solid, what to do
-  std::vector<int> labels;  ///< (n) part of each input point, in input order; -1 unless solid
+  std::vector<int> labels;  ///< (n) part of each input point, in input order; -1 for the
+                            ///< ground and unless solid
   Parts parts;
   MergeTree tree;  ///< cut() it again for other labels: Parts::part_of_point
+  Ground ground;
   Denoised denoised;
   DelaunayComplex complex;
   Interior interior;
@@ -66,7 +70,7 @@ struct Segmentation {
   std::vector<StageCost> costs;
 };
 
-/// denoise → triangulate → find_interior → find_basins → build_merge_tree → cut.
+/// find_ground → denoise → triangulate → find_interior → find_basins → build_merge_tree → cut.
 /// Geometric outcomes are in `verdict`; throws Error(kUsage), Error(kInput) for a coordinate that
 /// is not finite, Error(kCancelled). Cost: O(n log n), about 1 kB a point. Safe to call from
 /// several threads.

@@ -66,6 +66,7 @@ struct MergeTree {
   std::vector<Merge> merges;  ///< ascending in ratio; a spanning forest of the pieces
   std::vector<Neck> necks;    ///< all pairs of touching pieces, a < b, sorted
   std::vector<std::uint32_t> piece_of_point;  ///< (n) by input point; kNoBasin without inside
+                                              ///< and for the ground
   std::vector<std::uint32_t> point_count;     ///< (p) points of each piece
   std::vector<Moments> moments;               ///< (p) about `origin`
   std::vector<Vec3> ball_center;              ///< (p) of the largest ball of a maximum or cell
@@ -127,6 +128,7 @@ struct Part {
   Vec3 ball_center;                    ///< of the largest inner ball among the part's maxima
   double ball_radius = 0.0;
   std::size_t point_count = 0;
+  int object = 0;                       ///< objects do not touch; the one of most volume is 0
   std::vector<PartNeighbor> neighbors;  ///< ascending by part
 };
 
@@ -134,7 +136,7 @@ struct Part {
 struct Parts {
   std::vector<Part> parts;
   std::vector<int> part_of_piece;  ///< (p)
-  std::vector<int> part_of_point;  ///< (n); -1 only when nothing is inside
+  std::vector<int> part_of_point;  ///< (n); -1 for the ground and when nothing is inside
   double merge_ratio = 1.0;        ///< at which the tree was cut
 };
 

@@ -145,8 +145,8 @@ class Database:
 
     def add_files(self, paths: Iterable[Path], *, class_name: str | None = None,
                   tags: Iterable[str] = (), sample: int = 20000, noise: float = 0.0, seed: int = 1,
-                  method: str = "default", denoise: int | None = None, threads: int = 0,
-                  progress: Progress | None = None) -> IndexReport:
+                  method: str = "default", denoise: int | None = None, ground: str = "auto",
+                  threads: int = 0, progress: Progress | None = None) -> IndexReport:
         """Stores files under their paths, several at once, as `morsel index` does.
 
         A file whose content is stored already is not segmented again. One that fails does not
@@ -157,7 +157,7 @@ class Database:
             class_name: of all of them; not given: as it was.
             tags: added to those that they have.
             sample, noise, seed: of meshes, as in read_points().
-            method, denoise: as in segment().
+            method, denoise, ground: as in segment().
             threads: files that are worked on at once; 0: one a core.
             progress: called as progress("index", fraction), the share of the files that are done.
         """
@@ -165,7 +165,7 @@ class Database:
         texts = [os.fspath(path) for path in paths]
         files = [(text, os.path.normpath(text)) for text in texts]
         added, replaced, unchanged, without_inside, failures = self._file.put_files(
-            files, class_name, list(tags), (sample, noise, seed), (method, denoise, threads),
+            files, class_name, list(tags), (sample, noise, seed), (method, denoise, ground, threads),
             progress)
         return IndexReport(added, replaced, unchanged, without_inside,
                            [(os.fspath(path), reason) for path, reason in failures])

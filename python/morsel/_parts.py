@@ -43,6 +43,8 @@ class Part:
     """(3,) of that ball."""
     point_count: int
     """Points that carry its label, outliers not counted."""
+    object: int
+    """The object that it is of: objects do not touch, the one of most volume is 0."""
     neighbours: tuple[Neighbour, ...]
     """Parts that touch it, ascending."""
 

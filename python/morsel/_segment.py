@@ -16,8 +16,8 @@ from ._signature import Signature
 
 
 def segment(points: PointsLike, parts: int | None = None, merge_ratio: float | None = None, *,
-            method: str = "default", denoise: int | None = None, threads: int = 0,
-            progress: Progress | None = None) -> Segmentation:
+            method: str = "default", denoise: int | None = None, ground: str = "auto",
+            threads: int = 0, progress: Progress | None = None) -> Segmentation:
     """Cuts the cloud of a solid into its parts.
 
     Args:
@@ -29,6 +29,9 @@ def segment(points: PointsLike, parts: int | None = None, merge_ratio: float | N
         method: "default", or "paper" for the published rules to the letter.
         denoise: rounds of smoothing, 0 to 20. Not given: the noise is measured and the program
             decides. The paper's method has none.
+        ground: what becomes of a plane that objects stand on: "auto" sets it apart where it is
+            unmistakable, "keep" takes it for part of an object, "remove" sets the plane apart that
+            bears most points. The paper's method takes the points as they are.
         threads: at most so many; 0: one a core. The result does not depend on it.
         progress: called as progress(stage, fraction) with the name of the stage that begins and
             the share of all work, 0 to 1, that is done; if it raises, the work is cancelled.
@@ -54,7 +57,7 @@ def segment(points: PointsLike, parts: int | None = None, merge_ratio: float | N
 float64
     """
     return Segmentation(_morsel.segment(as_points(points), _count("parts", parts), merge_ratio,
-                                        method, denoise, threads, progress))
+                                        method, denoise, ground, threads, progress))
 
 
 class Segmentation:
@@ -65,7 +68,8 @@ class Segmentation:
 
     @property
     def labels(self) -> NDArray[np.int32]:
-        """(n,) part of each point in the order of the points, read-only; -1 unless solid.
+        """(n,) part of each point in the order of the points, read-only; -1 for the ground and unless
+        solid.
 
         >>> shape.labels.shape, shape.labels.min(), shape.labels.max()
         ((4000,), 0, 1)
@@ -76,8 +80,9 @@ class Segmentation:
     def parts(self) -> list[Part]:
         """By decreasing volume; part i has the label i. Empty unless solid."""
         return [Part(number, volume, center, covariance, radius, ball_center, count,
-                     tuple(Neighbour(*n) for n in neighbours))
-                for number, (volume, center, covariance, ball_center, radius, count, neighbours)
+                     object, tuple(Neighbour(*n) for n in neighbours))
+                for number, (volume, center, covariance, ball_center, radius, count, object,
+                     neighbours)
                 in enumerate(self._shape.parts)]
 
     @property

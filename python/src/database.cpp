@@ -93,8 +93,9 @@ const char* put(const File& file, const std::string& name, const std::shared_ptr
 }
 
 using PathAndName = std::pair<fs::path, std::string>;
-using Sampling = std::tuple<std::size_t, double, std::uint64_t>;      // as in SampleOptions
-using Segmenting = std::tuple<std::string, std::optional<int>, int>;  // as segment_options() has it
+using Sampling = std::tuple<std::size_t, double, std::uint64_t>;  // as in SampleOptions
+// As segment_options() has it.
+using Segmenting = std::tuple<std::string, std::optional<int>, std::string, int>;
 
 py::tuple put_files(const File& file, const std::vector<PathAndName>& named,
                     const std::optional<std::string>& class_name,

@@ -15,9 +15,10 @@ namespace morsel::python {
 [[nodiscard]] MatchOptions match_options(const std::string& method, const std::string& mode,
                                          bool mirror, bool same_scale = false);
 
-/// How to segment; the cut is set apart. `denoise` none: the program decides.
+/// How to segment; the cut is set apart. `denoise` none: the program decides. `ground` is
+/// "auto", "keep" or "remove".
 /// Throws Error(kUsage) that names the value and its range.
 [[nodiscard]] SegmentOptions segment_options(const std::string& method, std::optional<int> denoise,
-                                             int threads);
+                                             const std::string& ground, int threads);
 
 }  // namespace morsel::python

@@ -28,8 +28,21 @@ Method method_of(const std::string& name) {
   throw Error(ErrorCode::kUsage, "method is '" + name + "'; it must be 'default' or 'paper'");
 }
 
-SegmentOptions segment_options(const std::string& method, std::optional<int> denoise, int threads) {
+namespace {
+
+GroundMode ground_of(const std::string& name) {
+  if (name == "auto") return GroundMode::kAuto;
+  if (name == "keep") return GroundMode::kKeep;
+  if (name == "remove") return GroundMode::kRemove;
+  throw Error(ErrorCode::kUsage, "ground is '" + name + "'; it must be 'auto', 'keep' or 'remove'");
+}
+
+}  // namespace
+
+SegmentOptions segment_options(const std::string& method, std::optional<int> denoise,
+                               const std::string& ground, int threads) {
   SegmentOptions options;
+  options.ground.mode = ground_of(ground);
   options.interior.method = method_of(method);
   options.denoise.rounds = denoise;
   options.threads = threads;
@@ -37,6 +50,11 @@ SegmentOptions segment_options(const std::string& method, std::optional<int> den
     throw Error(ErrorCode::kUsage,
                 "denoise is " + std::to_string(*denoise) +
                     "; the paper's method takes the points as they are and knows no denoise");
+  }
+  if (ground != "auto" && options.interior.method == Method::kPaper) {
+    throw Error(ErrorCode::kUsage, "ground is '" + ground +
+                                       "'; the paper's method takes the points as they are and "
+                                       "knows no ground");
   }
   if (threads < 0 || threads > 1024) {
     throw Error(ErrorCode::kUsage,
@@ -52,9 +70,10 @@ using Shape = std::shared_ptr<CutShape>;
 
 Shape make_shape(const py::object& points, std::optional<std::size_t> parts,
                  std::optional<double> merge_ratio, const std::string& method,
-                 std::optional<int> denoise, int threads, const py::object& progress) {
+                 std::optional<int> denoise, const std::string& ground, int threads,
+                 const py::object& progress) {
   auto shape = std::make_shared<CutShape>();
-  shape->options = segment_options(method, denoise, threads);
+  shape->options = segment_options(method, denoise, ground, threads);
   shape->options.cut = {parts, merge_ratio};
   shape->points = points_of(points);
   const std::span<const Vec3> cloud = view(shape->points);
@@ -88,7 +107,7 @@ py::list parts_of(const CutShape& shape) {
     }
     list.append(py::make_tuple(part.volume, vector_array(part.center),
                                symmetric_array(part.covariance), vector_array(part.ball_center),
-                               part.ball_radius, part.point_count, neighbours));
+                               part.ball_radius, part.point_count, part.object, neighbours));
   }
   return list;
 }
@@ -136,7 +155,8 @@ void bind_segment(py::module_& module) {
       .def("findings", &findings_of)
       .def("cut", &cut_again, py::arg("parts"), py::arg("merge_ratio"));
   module.def("segment", &make_shape, py::arg("points"), py::arg("parts"), py::arg("merge_ratio"),
-             py::arg("method"), py::arg("denoise"), py::arg("threads"), py::arg("progress"));
+             py::arg("method"), py::arg("denoise"), py::arg("ground"), py::arg("threads"),
+             py::arg("progress"));
 }
 
 }  // namespace morsel::python

@@ -51,6 +51,21 @@ def test_the_largest_balls_are_empty_and_touch_the_points(points):
         assert math.isclose(distance, part.radius, rel_tol=1e-6)
 
 
+def test_the_ground_is_set_apart():
+    around = np.random.default_rng(2).uniform(-4, 4, (8000, 3)) * [1, 1, 0] - [0, 0, 0.8]
+    around = around[np.hypot(around[:, 0], around[:, 1]) > 0.9]
+    ball = shapes.ball(6000)
+    points = np.concatenate([ball[ball[:, 2] > -0.8], around])
+    shape = morsel.segment(points)
+    ground = shape.report()["ground"]
+    assert ground["points"] == np.sum(shape.labels == -1) > 0.9 * len(around)
+    assert np.allclose(ground["normal"], [0, 0, 1], atol=1e-3)
+    assert [part.object for part in shape.parts] == [0] * len(shape.parts)
+    volume = sum(part.volume for part in shape.parts)
+    assert math.isclose(volume, math.pi * (1.8**2 * 1.2 / 3), rel_tol=0.03)  # a ball without its cap
+    assert morsel.segment(points, ground="keep").report()["ground"] is None
+
+
 def test_three_balls():
     points = shapes.snowman()
     shape = morsel.segment(points, parts=3)
@@ -126,6 +141,8 @@ def test_a_flat_cloud_is_a_result():
     ({"method": "best"}, "method is 'best'; it must be 'default' or 'paper'"),
     ({"denoise": 21}, "rounds"),
     ({"denoise": 1, "method": "paper"}, "takes the points as they are"),
+    ({"ground": "flat"}, "ground is 'flat'; it must be 'auto', 'keep' or 'remove'"),
+    ({"ground": "keep", "method": "paper"}, "takes the points as they are"),
     ({"threads": -1}, "threads is -1; it must be 0 to 1024"),
 ])
 def test_options_out_of_range(points, options, text):

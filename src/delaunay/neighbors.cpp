@@ -8,8 +8,6 @@
 namespace morsel {
 namespace {
 
-constexpr std::uint32_t kNoVertex = 0xffffffffU;
-
 // The nearest vertices found so far, nearest first; ties go to the smaller index.
 struct Nearest {
   struct Entry {

@@ -22,8 +22,8 @@ double ratio_for_parts(const MergeTree& tree, std::size_t wanted) {
   return 1.0;
 }
 
-// Numbers the groups of pieces by decreasing volume.
-void number_parts(const MergeTree& tree, UnionFind& groups, Parts& result) {
+// The number (p) of each piece's group; groups are numbered by decreasing volume.
+std::vector<int> number_groups(const MergeTree& tree, UnionFind& groups) {
   const std::size_t count = tree.moments.size();
   std::vector<double> volume(count, 0.0);
   std::vector<std::uint32_t> roots;
@@ -33,11 +33,11 @@ void number_parts(const MergeTree& tree, UnionFind& groups, Parts& result) {
   }
   std::ranges::stable_sort(roots,
                            [&](std::uint32_t a, std::uint32_t b) { return volume[a] > volume[b]; });
-  std::vector<int> part_of_root(count, -1);
-  for (std::size_t i = 0; i < roots.size(); ++i) part_of_root[roots[i]] = static_cast<int>(i);
-  result.parts.resize(roots.size());
-  result.part_of_piece.resize(count);
-  for (std::uint32_t b = 0; b < count; ++b) result.part_of_piece[b] = part_of_root[groups.root(b)];
+  std::vector<int> number_of_root(count, -1);
+  for (std::size_t i = 0; i < roots.size(); ++i) number_of_root[roots[i]] = static_cast<int>(i);
+  std::vector<int> numbers(count);
+  for (std::uint32_t b = 0; b < count; ++b) numbers[b] = number_of_root[groups.root(b)];
+  return numbers;
 }
 
 // Centre and covariance from sums about `origin`.
@@ -69,6 +69,15 @@ void connect_parts(const MergeTree& tree, Parts& result) {
   for (Part& part : result.parts) std::ranges::sort(part.neighbors, {}, &PartNeighbor::part);
 }
 
+void number_objects(const MergeTree& tree, Parts& result) {
+  UnionFind objects(tree.moments.size());
+  for (const Merge& merge : tree.merges) objects.join(merge.a, merge.b);
+  const std::vector<int> object_of_piece = number_groups(tree, objects);
+  for (std::size_t b = 0; b < object_of_piece.size(); ++b) {
+    result.parts[result.part_of_piece[b]].object = object_of_piece[b];
+  }
+}
+
 void fill_parts(const MergeTree& tree, Parts& result) {
   std::vector<Moments> sums(result.parts.size());
   for (std::size_t b = 0; b < tree.moments.size(); ++b) {
@@ -83,6 +92,7 @@ void fill_parts(const MergeTree& tree, Parts& result) {
     finish_moments(sums[p], tree.origin, result.parts[p]);
   }
   connect_parts(tree, result);
+  number_objects(tree, result);
   result.part_of_point.reserve(tree.piece_of_point.size());
   for (const std::uint32_t b : tree.piece_of_point) {
     result.part_of_point.push_back(b == kNoBasin ? -1 : result.part_of_piece[b]);
@@ -127,7 +137,10 @@ Parts cut(const MergeTree& tree, const CutOptions& options) {
   for (const Merge& merge : tree.merges) {
     if (!merge.significant || merge.ratio <= result.merge_ratio) groups.join(merge.a, merge.b);
   }
-  number_parts(tree, groups, result);
+  result.part_of_piece = number_groups(tree, groups);
+  for (const int part : result.part_of_piece) {
+    result.parts.resize(std::max(result.parts.size(), static_cast<std::size_t>(part) + 1));
+  }
   fill_parts(tree, result);
   return result;
 }

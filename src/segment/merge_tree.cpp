@@ -147,7 +147,7 @@ std::vector<std::uint32_t> count_points(const DelaunayComplex& complex,
                                         std::size_t count) {
   std::vector<std::uint32_t> points(count, 0);
   for (const std::uint32_t v : complex.vertex_of_point) {
-    if (label_of_vertex[v] != kNoBasin) ++points[label_of_vertex[v]];
+    if (v != kNoVertex && label_of_vertex[v] != kNoBasin) ++points[label_of_vertex[v]];
   }
   return points;
 }
@@ -260,7 +260,7 @@ void assign_points(const DelaunayComplex& complex,
   tree.point_count = count_points(complex, piece_of_vertex, tree.moments.size());
   tree.piece_of_point.reserve(complex.vertex_of_point.size());
   for (const std::uint32_t v : complex.vertex_of_point) {
-    tree.piece_of_point.push_back(piece_of_vertex[v]);
+    tree.piece_of_point.push_back(v == kNoVertex ? kNoBasin : piece_of_vertex[v]);
   }
 }
 

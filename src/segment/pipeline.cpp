@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <morsel/morsel.hpp>
 #include <utility>
@@ -48,12 +49,32 @@ Denoised take_as_they_are(std::span<const Vec3> points) {
   return result;
 }
 
+// The points that are of objects and what closes those from below, without noise.
+Denoised denoise_objects(std::span<const Vec3> points, const Ground& ground,
+                         const DenoiseOptions& options, const Progress* progress) {
+  if (!ground.plane) return denoise(points, options, progress);
+  std::vector<Vec3> objects;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (ground.apart[i] == 0) objects.push_back(points[i]);
+  }
+  objects.insert(objects.end(), ground.base.begin(), ground.base.end());
+  Denoised result = denoise(objects, options, progress);
+  std::vector<std::uint32_t> stand_in(points.size(), kNoStandIn);
+  for (std::size_t i = 0, k = 0; i < points.size(); ++i) {
+    if (ground.apart[i] == 0) stand_in[i] = result.stand_in[k++];
+  }
+  result.stand_in = std::move(stand_in);
+  return result;
+}
+
 // From here on "point" means a point of the input, outliers and repeated ones included.
 std::vector<std::uint32_t> vertices_of_input(const DelaunayComplex& complex,
                                              const Denoised& denoised) {
   std::vector<std::uint32_t> vertices;
   vertices.reserve(denoised.stand_in.size());
-  for (const std::uint32_t i : denoised.stand_in) vertices.push_back(complex.vertex_of_point[i]);
+  for (const std::uint32_t i : denoised.stand_in) {
+    vertices.push_back(i == kNoStandIn ? kNoVertex : complex.vertex_of_point[i]);
+  }
   return vertices;
 }
 
@@ -119,7 +140,7 @@ std::string describe_not_solid(const Segmentation& s) {
          "or give more points where walls are thin.";
 }
 
-std::string describe(const Segmentation& s) {
+std::string describe_objects(const Segmentation& s) {
   switch (s.verdict) {
     case Verdict::kSolid:
       return describe_solid(s);
@@ -132,6 +153,15 @@ std::string describe(const Segmentation& s) {
       return describe_not_solid(s);
   }
   return {};
+}
+
+std::string describe(const Segmentation& s) {
+  std::string text = describe_objects(s);
+  if (s.ground.plane) {
+    text += fmt::format(" The ground was set apart, {} points.",
+                        std::ranges::count(s.ground.apart, char{1}));
+  }
+  return text;
 }
 
 }  // namespace
@@ -150,10 +180,14 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
   const bool paper = options.interior.method == Method::kPaper;
   Segmentation s;
   StageRunner stages(s.costs, progress);
-  s.denoised = stages.run("denoise", 0.0, [&] {
+  s.ground = stages.run("ground", 0.0, [&] {
+    return paper ? Ground{} : find_ground(points, {options.ground.mode, options.threads});
+  });
+  s.denoised = stages.run("denoise", 0.02, [&] {
     DenoiseOptions denoise_options = options.denoise;
     denoise_options.threads = options.threads;
-    return paper ? take_as_they_are(points) : denoise(points, denoise_options, progress);
+    return paper ? take_as_they_are(points)
+                 : denoise_objects(points, s.ground, denoise_options, progress);
   });
   s.complex = stages.run("triangulate", 0.2, [&] {
     DelaunayComplex complex = triangulate(s.denoised.points, {options.threads}, progress);

@@ -176,6 +176,99 @@ TEST(SegmentTest, PaperMethodRuns) {
   EXPECT_EQ(s.parts.merge_ratio, 1.5);
 }
 
+// --- several objects and the ground -------------------------------------------------------------
+
+// A dumbbell that stands on its two balls, on a plane that is not seen beneath it.
+Points tabletop_dumbbell(double noise) {
+  Points plane = shapes::changed(shapes::cube_cloud(12000, 4), [](const Vec3& p) {
+    return Vec3{12.0 * (p.x - 0.5), 9.0 * (p.y - 0.5), -0.9};
+  });
+  std::erase_if(plane, [](const Vec3& p) { return std::abs(p.x) < 3.0 && std::abs(p.y) < 1.0; });
+  Points points = shapes::dumbbell(12000, 0.35);
+  std::erase_if(points, [](const Vec3& p) { return p.z < -0.9; });
+  return shapes::noisy(shapes::joined(points, plane), noise);
+}
+
+TEST(SegmentTest, TheGroundIsSetApartAndTheObjectClosed) {
+  for (const double noise : {0.0, 0.01}) {
+    const Points points = tabletop_dumbbell(noise);
+    const Segmentation s = segment(points);
+    ASSERT_EQ(s.verdict, Verdict::kSolid) << s.message;
+    ASSERT_TRUE(s.ground.plane);
+    EXPECT_NE(s.message.find("The ground was set apart"), std::string::npos) << s.message;
+    EXPECT_NEAR(s.interior.volume, segment(shapes::dumbbell(12000, 0.35)).interior.volume, 0.3);
+    ASSERT_EQ(s.labels.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].z > -0.8) {
+        EXPECT_GE(s.labels[i], 0);
+      }
+      const bool beside = std::abs(points[i].x) > 3.1 || std::abs(points[i].y) > 1.1;
+      if (points[i].z < -0.85 && beside) {
+        EXPECT_EQ(s.labels[i], -1);
+      }
+    }
+    EXPECT_LE(s.parts.parts.size(), 4U);
+    const auto report = nlohmann::json::parse(report_json(s, {}, "test"));
+    EXPECT_EQ(report.at("ground").at("points"), std::ranges::count(s.labels, -1));
+    EXPECT_NEAR(report.at("ground").at("normal").at(2).get<double>(), 1.0, 1e-3);
+    double share = 0.0;
+    for (const auto& part : report.at("parts")) share += part.at("point_share").get<double>();
+    EXPECT_NEAR(share, 1.0, 1e-9);
+    EXPECT_EQ(recut(s, {.parts = 1, .merge_ratio = {}}).message.substr(0, 7), "1 part.");
+  }
+}
+
+TEST(SegmentTest, WithAGroundOrderAndThreadsDoNotMatterEither) {
+  const Points points = tabletop_dumbbell(0.01);
+  SegmentOptions options;
+  options.threads = 1;
+  const Segmentation one = segment(points, options);
+  options.threads = 2;
+  const auto shuffle = shapes::permutation(points.size());
+  const Segmentation two = segment(shapes::permuted(points, shuffle), options);
+  EXPECT_TRUE(two.labels == shapes::permuted(one.labels, shuffle));
+  EXPECT_EQ(two.message, one.message);
+}
+
+TEST(SegmentTest, TheGroundStaysWhenToldAndInThePapersMethod) {
+  const Points points = tabletop_dumbbell(0.0);
+  SegmentOptions options;
+  options.ground.mode = GroundMode::kKeep;
+  EXPECT_FALSE(segment(points, options).ground.plane);
+  options = {};
+  options.interior.method = Method::kPaper;
+  EXPECT_FALSE(segment(points, options).ground.plane);
+}
+
+TEST(SegmentTest, EachObjectHasPartsOfItsOwn) {
+  const Points large = shapes::moved(shapes::dumbbell(8000, 0.35), {0, 0, 5});
+  const Points small = shapes::scaled(shapes::dumbbell(6000, 0.35, 2), 0.7);
+  const Points points = shapes::joined(small, large);
+  for (const std::size_t asked : {2U, 4U, 6U}) {
+    SegmentOptions options;
+    options.cut.parts = asked;
+    const Segmentation s = segment(points, options);
+    ASSERT_EQ(s.parts.parts.size(), asked);
+    EXPECT_EQ(s.tree.component_count, 2U);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(s.parts.parts.at(static_cast<std::size_t>(s.labels[i])).object,
+                i < small.size() ? 1 : 0);
+    }
+    const auto report = nlohmann::json::parse(report_json(s, options, "test"));
+    EXPECT_EQ(report.at("counts").at("objects"), 2);
+    EXPECT_EQ(report.at("parts").at(0).at("object"), 0);
+  }
+}
+
+TEST(SegmentTest, SpecksBesideAnObjectAreNoObjects) {
+  const Points dumbbell = shapes::dumbbell(10000, 0.35);
+  const Points ball = shapes::sphere(150, {0, 0, 4}, 0.2, 2);
+  const Points cloud = shapes::moved(shapes::scaled(shapes::cube_cloud(400, 3), 0.4), {0, 3, 0});
+  const Segmentation s = segment(shapes::joined(dumbbell, shapes::joined(ball, cloud)));
+  EXPECT_EQ(s.tree.component_count, 1U);
+  EXPECT_EQ(s.parts.parts.size(), 3U);
+}
+
 // --- what must not matter ---------------------------------------------------------------------
 
 // Points exactly on spheres have cospherical neighbours up to rounding; these have not.
@@ -435,10 +528,11 @@ TEST(SegmentTest, ReportsProgressAndStages) {
   });
   const Segmentation s = segment(shapes::sphere(2000), {}, &progress);
   EXPECT_EQ(last, 1.0);
-  const std::vector<std::string> expected{"denoise", "triangulate", "neighbors", "interior",
-                                          "basins",  "merge",       "cut",       "done"};
+  const std::vector<std::string> expected{"ground",    "denoise",  "triangulate",
+                                          "neighbors", "interior", "basins",
+                                          "merge",     "cut",      "done"};
   EXPECT_EQ(stages, expected);
-  ASSERT_EQ(s.costs.size(), 7U);
+  ASSERT_EQ(s.costs.size(), 8U);
   for (const StageCost& cost : s.costs) {
     EXPECT_GE(cost.seconds, 0.0);
     EXPECT_GT(cost.peak_bytes, 1U << 20);
@@ -447,7 +541,7 @@ TEST(SegmentTest, ReportsProgressAndStages) {
 
 TEST(SegmentTest, CanBeCancelledAtEveryStage) {
   const Points points = shapes::sphere(1000);
-  for (int stop = 0; stop < 8; ++stop) {
+  for (int stop = 0; stop < 9; ++stop) {
     int reports = 0;
     Progress* handle = nullptr;
     Progress progress([&](std::string_view, double) {

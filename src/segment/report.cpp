@@ -1,5 +1,6 @@
 // The report of a segmentation as JSON.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <morsel/morsel.hpp>
@@ -26,6 +27,18 @@ const char* verdict_name(Verdict verdict) {
   return "";
 }
 
+const char* ground_name(GroundMode mode) {
+  switch (mode) {
+    case GroundMode::kAuto:
+      return "auto";
+    case GroundMode::kKeep:
+      return "keep";
+    case GroundMode::kRemove:
+      return "remove";
+  }
+  return "";
+}
+
 Json options_json(const SegmentOptions& options, const Segmentation& s) {
   Json json;
   const bool paper = options.interior.method == Method::kPaper;
@@ -35,10 +48,24 @@ Json options_json(const SegmentOptions& options, const Segmentation& s) {
     json["deep_angle_degrees"] = options.interior.deep_angle;
   } else {
     json["denoise"] = options.denoise.rounds ? Json(*options.denoise.rounds) : Json("auto");
+    json["ground"] = ground_name(options.ground.mode);
   }
   if (options.cut.parts) json["parts"] = *options.cut.parts;
   if (s.verdict == Verdict::kSolid) json["merge_ratio"] = s.parts.merge_ratio;
   return json;
+}
+
+std::size_t ground_points(const Segmentation& s) {
+  return static_cast<std::size_t>(std::ranges::count(s.ground.apart, char{1}));
+}
+
+// Null without a ground.
+Json ground_json(const Segmentation& s) {
+  if (!s.ground.plane) return nullptr;
+  return {{"normal", vector_json(s.ground.plane->normal)},
+          {"offset", s.ground.plane->offset},
+          {"thickness", s.ground.plane->thickness},
+          {"points", ground_points(s)}};
 }
 
 Json counts_json(const Segmentation& s) {
@@ -53,14 +80,15 @@ Json counts_json(const Segmentation& s) {
 Json part_json(const Part& part, int index, const Segmentation& s) {
   Json json;
   json["part"] = index;
+  json["object"] = part.object;
   json["volume"] = part.volume;
   json["volume_share"] = part.volume / s.interior.volume;
   json["representative_point"] = vector_json(part.center);
   json["covariance"] = part.covariance;
   json["largest_ball"] = {{"center", vector_json(part.ball_center)}, {"radius", part.ball_radius}};
   json["points"] = part.point_count;
-  json["point_share"] =
-      static_cast<double>(part.point_count) / static_cast<double>(s.tree.piece_of_point.size());
+  json["point_share"] = static_cast<double>(part.point_count) /
+                        static_cast<double>(s.tree.piece_of_point.size() - ground_points(s));
   json["neighbors"] = Json::array();
   for (const PartNeighbor& neighbor : part.neighbors) {
     json["neighbors"].push_back({{"part", neighbor.part}, {"neck_radius", neighbor.neck_radius}});
@@ -106,6 +134,7 @@ std::string report_json(const Segmentation& segmentation, const SegmentOptions& 
   json["noise"] = {{"estimate", s.denoised.noise},
                    {"spacing", s.denoised.spacing},
                    {"smoothing_rounds", s.denoised.rounds}};
+  json["ground"] = ground_json(s);
   json["volume"] = s.interior.volume;
   json["openings"] = openings_json(s.interior.openings);
   json["open_share"] = s.interior.open_share;

@@ -22,6 +22,9 @@ std::string options_text(const SegmentOptions& options) {
   if (interior.method != Method::kPaper && options.denoise.rounds) {
     text += fmt::format(", denoise {}", *options.denoise.rounds);
   }
+  if (interior.method != Method::kPaper && options.ground.mode != GroundMode::kAuto) {
+    text += options.ground.mode == GroundMode::kKeep ? ", ground keep" : ", ground remove";
+  }
   if (options.cut.parts) text += fmt::format(", parts {}", *options.cut.parts);
   if (options.cut.merge_ratio) text += fmt::format(", merge_ratio {}", *options.cut.merge_ratio);
   return fmt::format("morsel {}, {}", version(), text);

@@ -28,7 +28,9 @@ constexpr std::uint32_t kMostSteps = (1U << kBits) - 1;
 // The part of each point that went on to the triangulation.
 std::vector<int> parts_of_denoised(const Segmentation& s) {
   std::vector<int> parts(s.denoised.points.size(), -1);
-  for (std::size_t i = 0; i < s.labels.size(); ++i) parts[s.denoised.stand_in[i]] = s.labels[i];
+  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+    if (s.denoised.stand_in[i] != kNoStandIn) parts[s.denoised.stand_in[i]] = s.labels[i];
+  }
   return parts;
 }
 

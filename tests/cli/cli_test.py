@@ -131,7 +131,8 @@ class Usage(CliTest):
                 ("--parts", "0", "from 1"), ("--merge-ratio", "0.99", "at least 1"),
                 ("--big-ball-ratio", "0", "above 0"), ("--deep-angle", "181", "at most 180"),
                 ("--denoise", "21", "0 to 20"), ("--threads", "1025", "to 1024"),
-                ("--method", "papers", "default or paper")):
+                ("--method", "papers", "default or paper"),
+                ("--ground", "off", "auto, keep or remove")):
             with self.subTest(option=option):
                 self.refuse(USAGE, f"{option}.*{value}.*{allowed}", "segment", "a", option, value)
 
@@ -146,6 +147,7 @@ class Usage(CliTest):
         self.refuse(USAGE, "--big-ball-ratio.*--method paper", "segment", "a",
                     "--big-ball-ratio", "1")
         self.refuse(USAGE, "--denoise", "segment", "a", "--method", "paper", "--denoise", "2")
+        self.refuse(USAGE, "--ground", "segment", "a", "--method", "paper", "--ground", "keep")
 
 
 class Outputs(CliTest):

@@ -14,6 +14,7 @@ const kMeasures: Record<string, string> = {
 const kSteps: Record<string, string> = {
   '': 'Waiting for its turn',
   read: 'Reading the file',
+  ground: 'Looking for the ground',
   denoise: 'Looking for stray and noisy points',
   triangulate: 'Joining neighbouring points',
   neighbors: 'Measuring the gaps between points',

@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <morsel/ground.hpp>
+#include <vector>
+
+#include "base/box.hpp"
+#include "base/spatial_order.hpp"
+#include "ground/contact.hpp"
+#include "ground/plane.hpp"
+
+namespace morsel {
+namespace {
+
+// Planes are looked for among so many points at most.
+constexpr std::size_t kSample = 4096;
+// So many planes may bear more points than the ground.
+constexpr int kPlanes = 3;
+
+// Every k-th along a curve that fills space, so evenly from everywhere.
+std::vector<Vec3> sample_of(const std::vector<Vec3>& points) {
+  std::vector<Vec3> sample;
+  const std::size_t count = std::min(kSample, points.size());
+  for (std::size_t i = 0; i < count; ++i) sample.push_back(points[i * points.size() / count]);
+  return sample;
+}
+
+std::optional<GroundPlane> choose_plane(const std::vector<Vec3>& points, GroundMode mode) {
+  const std::vector<Vec3> sample = sample_of(points);
+  const double diagonal = bounding_box(sample).diagonal();
+  std::vector<Vec3> left = sample;
+  for (int i = 0; i < kPlanes; ++i) {
+    const std::optional<GroundPlane> plane = find_plane(left, diagonal);
+    if (!plane || mode == GroundMode::kRemove) return plane;
+    if (is_unmistakable(sample, *plane, diagonal)) return plane;
+    std::erase_if(left,
+                  [&](const Vec3& p) { return std::abs(plane->height(p)) <= plane->thickness; });
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Ground find_ground(std::span<const Vec3> points, const GroundOptions& options) {
+  Ground ground;
+  if (options.mode == GroundMode::kKeep) return ground;
+  const SpatialOrder order = sort_spatially(points, options.threads);
+  ground.plane = choose_plane(order.points, options.mode);
+  if (!ground.plane) return ground;
+  Contact contact = find_contact(order.points, *ground.plane, options.threads);
+  if (std::ranges::count(contact.apart, char{0}) == 0) return {};  // nothing stands on it
+  ground.base = std::move(contact.base);
+  for (const std::uint32_t i : order.order_of_point) ground.apart.push_back(contact.apart[i]);
+  return ground;
+}
+
+}  // namespace morsel
