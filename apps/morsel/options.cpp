@@ -92,8 +92,7 @@ void add_method_options(CLI::App& app, SegmentOptions& options) {
             text == "off" ? 0 : static_cast<int>(whole_number(name, text, 0, 20));
       })
       ->group("Method");
-  add(app, "--ground", "auto|keep|remove",
-      "The plane that objects stand on: apart where clear, kept, apart in any case [auto]",
+  add(app, "--ground", "auto|keep|remove", "What becomes of a plane under the objects [auto]",
       [&options](const std::string& name, const std::string& text) {
         options.ground.mode = ground_mode_of(name, text);
       })
