@@ -28,7 +28,8 @@ struct Sketch {
 /// Compact bytes, about one and a half a point: versioned, little-endian, deflated.
 [[nodiscard]] std::string encode_sketch(const Sketch& sketch);
 
-/// Throws Error(kInput) that names `name` and what is wrong with the bytes.
+/// Throws Error(kInput) that names `name` and what is wrong with the bytes: also where they are of
+/// more points than make_sketch() keeps.
 [[nodiscard]] Sketch decode_sketch(std::string bytes, const std::string& name);
 
 /// Draws the sketch from three quarters, `width` pixels wide, as the bytes of a PNG file.

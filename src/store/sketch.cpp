@@ -212,6 +212,9 @@ Sketch decode_sketch(std::string bytes, const std::string& name) {
   for (int part = -1; part < sketch.part_count; ++part) {
     const std::uint32_t count = read_number(reader, "the points of a part");
     if (count > reader.remaining()) reader.fail("more points than there are bytes");
+    if (count > kMostPoints - sketch.points.size()) {
+      reader.fail(fmt::format("more than {} points", kMostPoints));
+    }
     std::uint32_t place = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       place += read_number(reader, "a point");

@@ -79,6 +79,25 @@ TEST(Sketch, OddOnesComeBackToo) {
   EXPECT_EQ(back.parts, sketch.parts);
 }
 
+TEST(Sketch, MorePointsThanAreKeptAreNamed) {
+  Sketch sketch;
+  sketch.part_count = 1;
+  sketch.points.assign(2000, {1, 2, 3});
+  sketch.parts.assign(2000, 0);
+  sketch.parts[0] = -1;
+  EXPECT_EQ(decode_sketch(encode_sketch(sketch), "test").points.size(), 2000U);
+  sketch.points.push_back({1, 2, 3});
+  sketch.parts.push_back(0);
+  try {
+    (void)decode_sketch(encode_sketch(sketch), "test");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInput);
+    EXPECT_NE(std::string(error.what()).find("more than 2000 points"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Sketch, DoesNotDependOnTheOrderOfThePoints) {
   const std::vector<Vec3> cloud = shapes::dumbbell(3000);
   const std::vector<Vec3> other = shapes::permuted(cloud, shapes::permutation(cloud.size()));
