@@ -44,7 +44,7 @@ install:  ## Build and install the program and the library to PREFIX (default /u
 	@cmake --build --preset release --target morsel morsel_cli
 	@cmake --install build/release --prefix "$(or $(PREFIX),/usr/local)"
 
-package:  ## Build a Debian package: build/package/morsel_*.deb
+package:  ## Build the Debian packages: build/package/*.deb
 	@scripts/package.sh
 
 clean:  ## Remove everything that was built or written

@@ -6,6 +6,7 @@
 #   scripts/install-dependencies.sh --python also what the Python package needs
 #   scripts/install-dependencies.sh --docs   also what `make docs` needs
 #   scripts/install-dependencies.sh --fuzz   also what `make fuzz` needs
+#   scripts/install-dependencies.sh --clean-root    also what scripts/clean-root.sh needs
 #   scripts/install-dependencies.sh --test   also what `make test` needs
 #   scripts/install-dependencies.sh --peers  also what `morsel-bench peers` compares with: hundreds
 #   scripts/install-dependencies.sh --dev    also what every other target needs
@@ -22,6 +23,7 @@ if ! command -v node >/dev/null || ! command -v npm >/dev/null; then packages+=(
 lint=(clang-format clang-tidy-16 shellcheck) # 14, the default, cannot parse <ranges>
 docs=(doxygen mkdocs)
 fuzz=(clang-16 libclang-rt-16-dev llvm-16)
+clean_root=(mmdebstrap)
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 test=("${lint[@]}" chromium "${python[@]}" python3-scipy python3-pytest python3-jsonschema mypy
   python3-matplotlib python3-plotly "${docs[@]}" wrk postgresql slurm-wlm munge)
@@ -32,11 +34,12 @@ case "${1:-}" in
   --python) packages+=("${python[@]}") ;;
   --docs) packages+=("${docs[@]}") ;;
   --fuzz) packages+=("${fuzz[@]}") ;;
+  --clean-root) packages+=("${clean_root[@]}") ;;
   --test) packages+=("${test[@]}") ;;
   --peers) packages+=("${peers[@]}") ;;
-  --dev) packages+=("${test[@]}" "${fuzz[@]}") ;;
+  --dev) packages+=("${test[@]}" "${fuzz[@]}" "${clean_root[@]}") ;;
   *)
-    echo "usage: $0 [--lint|--python|--docs|--fuzz|--test|--peers|--dev]" >&2
+    echo "usage: $0 [--lint|--python|--docs|--fuzz|--clean-root|--test|--peers|--dev]" >&2
     exit 2
     ;;
 esac

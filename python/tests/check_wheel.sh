@@ -27,20 +27,7 @@ rm -rf "$work/two"
 rm -rf "$work/tree"
 
 cd "$work"
-"$work/env/bin/python" - "$work/env" <<'PROGRAM'
-import importlib.metadata
-import sys
-
-import numpy as np
-
-import morsel
-
-assert morsel.__file__.startswith(sys.argv[1]), morsel.__file__
-assert importlib.metadata.version("morsel") == morsel.__version__
-directions = np.random.default_rng(1).normal(size=(2000, 3))
-ball = directions / np.linalg.norm(directions, axis=1, keepdims=True)
-print(morsel.segment(ball), "with morsel", morsel.__version__)
-PROGRAM
+"$work/env/bin/python" "$source/tests/install/consumer.py" "$work/env"
 # Nothing of the build is needed at run time.
 module=$(find "$work/env" -name '_morsel*.so')
 if readelf -d "$module" | grep -E 'RPATH|RUNPATH|libmorsel'; then exit 1; fi

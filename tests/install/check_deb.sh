@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes the Debian package and installs it with dpkg into an empty folder that holds, apart from it, only
-# the packages that it says it needs, taken from this machine; then runs the program in there.
+# Makes the Debian packages and installs them with dpkg into an empty folder that holds, apart from them,
+# only the packages that they say they need, taken from this machine; then uses them in there. The same in
+# a whole Debian, over the network: scripts/clean-root.sh.
 #   check_deb.sh BUILD CPACK
 set -euo pipefail
 
@@ -10,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 root=$work/root
 
 "$cpack" --config "$build/CPackConfig.cmake" -B "$work" >"$work/log" || { cat "$work/log" && exit 1; }
-package=$(echo "$work"/morsel_*.deb)
+packages=("$work"/*.deb)
 
 # The first alternative that is installed of each item of "a (>= 1), b | c".
 names() {
@@ -23,7 +24,9 @@ names() {
 }
 
 needed=() waiting=()
-mapfile -t waiting < <(dpkg-deb --field "$package" Depends | names)
+for package in "${packages[@]}"; do
+  mapfile -t -O "${#waiting[@]}" waiting < <(dpkg-deb --field "$package" Depends | names)
+done
 waiting+=(dash libc-bin) # every Debian system has a shell, and ldconfig, which installing calls
 while [[ ${#waiting[@]} -gt 0 ]]; do
   name=${waiting[0]}
@@ -35,11 +38,14 @@ while [[ ${#waiting[@]} -gt 0 ]]; do
   )
 done
 
-mkdir -p "$root"/usr/{bin,lib,lib64,sbin} "$root"/var/lib/dpkg/{info,updates} "$root/var/lib/dpkg/triggers"
+mkdir -p "$root"/tmp "$root"/usr/{bin,lib,lib64,sbin} "$root"/var/lib/dpkg/{info,updates} "$root/var/lib/dpkg/triggers"
 for folder in bin lib lib64 sbin; do ln -s "usr/$folder" "$root/$folder"; done
 dpkg-query --listfiles "${needed[@]}" | grep -v '^$\|/\.$' | sort -u |
   tar -C / -c --no-recursion --ignore-failed-read -T - 2>/dev/null |
   tar -C "$root" -x --keep-directory-symlink
+# Where several packages have a library, its name is none of theirs.
+find /etc/alternatives /usr/lib \( -path '/etc/*' -o -lname '/etc/alternatives/*' \) -name '*.so.*' |
+  tar -C / -c -T - 2>/dev/null | tar -C "$root" -x --keep-directory-symlink
 dpkg-query --status "${needed[@]}" >"$root/var/lib/dpkg/status"
 for name in "${needed[@]}"; do
   cp /var/lib/dpkg/info/"$name"{,:*}.list "$root/var/lib/dpkg/info/" 2>/dev/null || true
@@ -48,22 +54,8 @@ done
 # dpkg and chroot want to be root: of a namespace of its own where this is not.
 as_root=()
 [[ $EUID -eq 0 ]] || as_root=(unshare --user --map-root-user)
-"${as_root[@]}" dpkg --root="$root" --force-not-root --install "$package" >"$work/log" 2>&1 ||
+"${as_root[@]}" dpkg --root="$root" --force-not-root --install "${packages[@]}" >"$work/log" 2>&1 ||
   { cat "$work/log" && exit 1; }
 
-for file in usr/share/man/man1/morsel.1 usr/share/doc/morsel/{copyright,README.md} \
-  usr/share/bash-completion/completions/morsel usr/share/zsh/site-functions/_morsel \
-  usr/share/fish/vendor_completions.d/morsel.fish usr/include/morsel/morsel.hpp; do
-  [[ -s $root/$file ]] || { echo "the package lacks $file" && exit 1; }
-done
-
-# Points of a ball, evenly spread.
-awk 'BEGIN { for (i = 0; i < 2000; ++i) { z = 1 - (2 * i + 1) / 2000; r = sqrt(1 - z * z);
-  a = 2.399963 * i; print r * cos(a), r * sin(a), z } }' >"$root/ball.xyz"
-run() { "${as_root[@]}" chroot "$root" /usr/bin/morsel "$@"; }
-run --version
-run segment /ball.xyz --html /parts.html | tail -1
-grep -q '<script' "$root/parts.html" || { echo "the package has no viewer" && exit 1; }
-run index --database /shapes.db /ball.xyz | tail -1
-run search --database /shapes.db /ball.xyz --top 1 | grep -q ball
-echo "installed $(basename "$package") beside: ${needed[*]}"
+"$(dirname "$0")/in_root.sh" "$root"
+echo "installed $(basename -a "${packages[@]}" | xargs) beside: ${needed[*]}"
