@@ -135,9 +135,9 @@ class Server::Service {
  private:
   int listen();
   void add_routes();
-  /// The JSON text that `make` gives; heavy work waits for its turn.
+  /// The JSON text that `make` gives, when it has its turn among `turns`; null: at once.
   template <class Make>
-  void get_json(const char* path, bool heavy, const Make& make);
+  void get_json(const char* path, serve::Turns* turns, const Make& make);
 
   [[nodiscard]] StoredShape stored(const std::string& name) const;
   [[nodiscard]] std::shared_ptr<const serve::Uploaded> uploaded(const std::string& id) const;
@@ -159,7 +159,8 @@ class Server::Service {
   int port_;
   std::string address_;
   serve::Guard guard_;
-  serve::Turns turns_;
+  serve::Turns searches_;  // without, some would wait much longer than others for the database
+  serve::Turns heavy_;
   serve::Uploads uploads_;
 };
 
@@ -207,7 +208,8 @@ Server::Service::Service(const Database& database, const ServeOptions& options)
       port_(listen()),
       address_(fmt::format("http://{}:{}/", serve::in_url(options.host), port_)),
       guard_(options.host, port_, options.token),
-      turns_(static_cast<std::size_t>(resolve_threads(0))),
+      searches_(static_cast<std::size_t>(resolve_threads(0))),
+      heavy_(static_cast<std::size_t>(resolve_threads(0))),
       uploads_(options) {
   http_.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                              {"Referrer-Policy", "no-referrer"},
@@ -264,10 +266,10 @@ httplib::Server::HandlerResponse Server::Service::admit(const Request& request,
 }
 
 template <class Make>
-void Server::Service::get_json(const char* path, bool heavy, const Make& make) {
-  http_.Get(path, [this, heavy, make](const Request& request, Response& response) {
+void Server::Service::get_json(const char* path, serve::Turns* turns, const Make& make) {
+  http_.Get(path, [turns, make](const Request& request, Response& response) {
     const std::string text =
-        heavy ? turns_.take([&] { return make(request); }) : std::string(make(request));
+        turns != nullptr ? turns->take([&] { return make(request); }) : std::string(make(request));
     response.set_content(text, kJson);
   });
 }
@@ -277,27 +279,27 @@ void Server::Service::add_routes() {
     const std::string_view page = serve::app_page();
     response.set_content(page.data(), page.size(), "text/html; charset=utf-8");
   });
-  get_json("/api/database", false,
+  get_json("/api/database", nullptr,
            [this](const Request&) { return serve::database_json(database_, options_); });
-  get_json("/api/shapes", false, [this](const Request& request) {
+  get_json("/api/shapes", nullptr, [this](const Request& request) {
     return serve::shapes_json(database_, choice_of(request),
                               number(request, "offset", 0, 0, 1'000'000'000),
                               number(request, "limit", 60, 1, serve::kMostListed));
   });
-  get_json("/api/shape", false, [this](const Request& request) {
+  get_json("/api/shape", nullptr, [this](const Request& request) {
     return serve::stored_shape_json(stored(needed(request, "name")));
   });
-  get_json("/api/search", false, [this](const Request& request) {
+  get_json("/api/search", &searches_, [this](const Request& request) {
     return serve::search_json(database_, query(request),
                               number(request, "top", 10, 1, serve::kMostHits));
   });
-  get_json("/api/picture", true,
+  get_json("/api/picture", &heavy_,
            [this](const Request& request) { return serve::sketch_json(query(request).data); });
-  get_json("/api/parts", true, [this](const Request& request) { return parts(request); });
-  get_json("/api/match", true, [this](const Request& request) {
+  get_json("/api/parts", &heavy_, [this](const Request& request) { return parts(request); });
+  get_json("/api/match", &heavy_, [this](const Request& request) {
     return serve::match_json(query(request), stored(needed(request, "with")));
   });
-  get_json("/api/matrix", true,
+  get_json("/api/matrix", &heavy_,
            [this](const Request& request) { return matrix(matrix_names(request), nullptr); });
   http_.Get("/api/matrix/events", [this](const Request& request, Response& response) {
     report_matrix(request, response);
@@ -387,7 +389,7 @@ void Server::Service::thumbnail(const Request& request, Response& response) {
     response.status = 304;
     return;
   }
-  const std::string png = turns_.take([&] { return draw_thumbnail(shape.data.sketch, 192); });
+  const std::string png = heavy_.take([&] { return draw_thumbnail(shape.data.sketch, 192); });
   response.set_content(png, "image/png");
 }
 
@@ -447,7 +449,7 @@ void Server::Service::report_upload(const Request& request, Response& response) 
 void Server::Service::report_matrix(const Request& request, Response& response) {
   auto work = std::make_shared<serve::WatchedWork>(
       [this, names = matrix_names(request)](const Progress& progress) {
-        return turns_.take([&] { return matrix(names, &progress); });
+        return heavy_.take([&] { return matrix(names, &progress); });
       });
   auto told = std::make_shared<int>(-1);
   response.set_chunked_content_provider(
