@@ -10,6 +10,8 @@
 #include <morsel/vec3.hpp>
 #include <vector>
 
+#include "base/threads.hpp"
+
 namespace morsel {
 
 /// The rounds in which n points are inserted, indices ascending in each. Every round is a sample of
@@ -84,7 +86,9 @@ class Insertion {
     for (std::size_t begin = 0; begin < round.size(); begin += kChunk) {
       hints.push_back(vertex_before(round[begin]));
     }
+    const GiverScope giver;
     tbb::parallel_for(std::size_t{0}, hints.size(), [&](std::size_t chunk) {
+      const TaskScope task;
       Vertex hint = hints[chunk];
       const std::size_t end = std::min((chunk + 1) * kChunk, round.size());
       for (std::size_t r = chunk * kChunk; r < end; ++r) hint = insert_locked(round[r], hint);

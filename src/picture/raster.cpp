@@ -3,12 +3,12 @@
 // Differs: parts are not blended; the part of the largest summed weight wins the pixel.
 #include "picture/raster.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+
+#include "base/threads.hpp"
 
 namespace morsel::picture {
 namespace {
@@ -329,10 +329,10 @@ Surface rasterize(std::span<const Surfel> surfels, const Camera& camera, float s
   Surface surface{camera.width, camera.height, {}};
   surface.fragments.resize(camera.width * camera.height);
   std::vector<Splat> splats(surfels.size());
-  tbb::parallel_for(std::size_t{0}, surfels.size(),
-                    [&](std::size_t i) { splats[i] = project(surfels[i], camera, smallest); });
+  parallel_rows(surfels.size(), 0,
+                [&](std::size_t i) { splats[i] = project(surfels[i], camera, smallest); });
   const Bands bands = sort_into_bands(splats, camera.height);
-  tbb::parallel_for(std::size_t{0}, bands.begin.size() - 1, [&](std::size_t band) {
+  parallel_rows(bands.begin.size() - 1, 0, [&](std::size_t band) {
     const std::size_t first_row = band * kBandRows;
     const std::size_t last_row = std::min(first_row + kBandRows, camera.height);
     const std::span<const std::uint32_t> touching(bands.splats.data() + bands.begin[band],

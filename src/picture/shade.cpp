@@ -3,8 +3,6 @@
 // pixel's neighbours in the depth buffer hide.
 #include "picture/shade.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,6 +10,8 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+
+#include "base/threads.hpp"
 
 namespace morsel::picture {
 namespace {
@@ -172,7 +172,7 @@ class LineTiles {
     std::vector<char> steps(columns_ * rows_, 0);
     // No two samples within a line's width differ by more than this many smallest steps.
     const float step = kDepthJump * style.object_size / (style.outline_width + 2.0F);
-    tbb::parallel_for(std::size_t{0}, rows_, [&](std::size_t row) {
+    parallel_rows(rows_, 0, [&](std::size_t row) {
       const std::size_t last = std::min((row + 1) * kTile, surface.height);
       for (std::size_t y = row * kTile; y < last; ++y) {
         for (std::size_t x = 0; x < surface.width; ++x) {
@@ -289,7 +289,7 @@ Tones measure_tones(const Surface& surface, const Style& style, std::size_t fact
   Tones tones{surface.width / factor, surface.height / factor, {}, {}};
   tones.light.resize(tones.width * tones.height);
   tones.line.resize(tones.width * tones.height);
-  tbb::parallel_for(std::size_t{0}, tones.height, [&](std::size_t row) {
+  parallel_rows(tones.height, 0, [&](std::size_t row) {
     for (std::size_t column = 0; column < tones.width; ++column) {
       const std::size_t pixel = row * tones.width + column;
       const auto [light, line] = shader.tones(column, row);
@@ -310,7 +310,7 @@ void draw_surface(const Surface& surface, const Style& style, std::size_t factor
                   std::size_t left, std::size_t top) {
   const Shader shader(surface, style, factor);
   const std::size_t columns = surface.width / factor;
-  tbb::parallel_for(std::size_t{0}, surface.height / factor, [&](std::size_t row) {
+  parallel_rows(surface.height / factor, 0, [&](std::size_t row) {
     std::uint8_t* pixel = &image.rgb[((top + row) * image.width + left) * 3];
     for (std::size_t column = 0; column < columns; ++column, pixel += 3) {
       const Vector3f color = shader.pixel(column, row);

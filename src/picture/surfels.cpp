@@ -5,10 +5,6 @@
 //     principal component analysis of the nearest neighbours.
 #include "picture/surfels.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -19,6 +15,7 @@
 
 #include "base/box.hpp"
 #include "base/morton.hpp"
+#include "base/threads.hpp"
 
 namespace morsel::picture {
 namespace {
@@ -50,10 +47,9 @@ constexpr float kIsolation = 8.0F;
 
 template <typename Body>
 void parallel_for_each(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-                    });
+  parallel_ranges(count, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
 }
 
 std::uint64_t cell_code(const Vector3f& p, float cell) {
@@ -395,7 +391,7 @@ Cloud merge_on_grid(const Cloud& cloud, float cell) {
   parallel_for_each(entries.size(), [&](std::size_t i) {
     entries[i] = {cell_code(cloud.points[i], cell), cloud.labels[i], static_cast<std::uint32_t>(i)};
   });
-  tbb::parallel_sort(entries);
+  parallel_sort(entries, 0);
   Cloud merged{{}, {}, cloud.center, cloud.scale};
   for (std::size_t begin = 0; begin < entries.size();) {
     std::size_t end = begin;
