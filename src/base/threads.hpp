@@ -56,15 +56,14 @@ void parallel_ranges(std::size_t count, int threads, const Body& body) {
     if (count > 0) body(std::size_t{0}, count);
     return;
   }
+  const tbb::blocked_range<std::size_t> all(0, count, kGrain);
+  const auto task = [&body](const tbb::blocked_range<std::size_t>& range) {
+    const TaskScope scope;
+    body(range.begin(), range.end());
+  };
   const GiverScope giver;
   tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        const TaskScope task;
-                        body(range.begin(), range.end());
-                      });
-  });
+  arena.execute([&] { tbb::parallel_for(all, task); });
 }
 
 /// Calls body(i) for each i in [0, count), for rows that are costly and unequal.
@@ -75,14 +74,13 @@ void parallel_rows(std::size_t count, int threads, const Body& body) {
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
   }
+  const auto task = [&body](std::size_t i) {
+    const TaskScope scope;
+    body(i);
+  };
   const GiverScope giver;
   tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      const TaskScope task;
-      body(i);
-    });
-  });
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, task); });
 }
 
 /// What collect(begin, end, values) appends for disjoint ranges that cover [0, count), in the order

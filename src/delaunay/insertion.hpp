@@ -86,13 +86,14 @@ class Insertion {
     for (std::size_t begin = 0; begin < round.size(); begin += kChunk) {
       hints.push_back(vertex_before(round[begin]));
     }
-    const GiverScope giver;
-    tbb::parallel_for(std::size_t{0}, hints.size(), [&](std::size_t chunk) {
+    const auto insert_chunk = [&](std::size_t chunk) {
       const TaskScope task;
       Vertex hint = hints[chunk];
       const std::size_t end = std::min((chunk + 1) * kChunk, round.size());
       for (std::size_t r = chunk * kChunk; r < end; ++r) hint = insert_locked(round[r], hint);
-    });
+    };
+    const GiverScope giver;
+    tbb::parallel_for(std::size_t{0}, hints.size(), insert_chunk);
   }
 
   // Tries until no other thread holds what the insertion touches.
