@@ -11,11 +11,11 @@
 
 #include "base/box.hpp"
 #include "base/noise.hpp"
+#include "base/point_tree.hpp"
 #include "base/random.hpp"
 #include "commands.hpp"
 #include "levels.hpp"
 #include "measures.hpp"
-#include "nearest.hpp"
 #include "sampling.hpp"
 #include "summary.hpp"
 
@@ -113,8 +113,8 @@ void drop_unseen(Scene& scene, std::vector<Vec3>& plane) {
   const std::vector<Vec3> home = std::move(scene.home);
   std::vector<Vec3> shadow;
   for (const Vec3& p : cloud.points) shadow.push_back({p.x, p.y, 0.0});
-  const NearestPoint nearest(shadow);
-  std::erase_if(plane, [&](const Vec3& p) { return nearest.find(p).distance < kShadow; });
+  const PointTree tree(shadow);
+  std::erase_if(plane, [&](const Vec3& p) { return tree.nearest(p).distance < kShadow; });
   scene.cloud = {};
   scene.home.clear();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

@@ -16,7 +16,7 @@
 #include <numeric>
 
 #include "base/box.hpp"
-#include "nearest.hpp"
+#include "base/point_tree.hpp"
 
 namespace morsel::bench {
 namespace {
@@ -92,9 +92,9 @@ std::vector<int> complete(std::span<const Vec3> points, const Labeled& labeled) 
     known_labels.push_back(labels[i]);
   }
   if (known.empty()) return labels;
-  const NearestPoint nearest(known);
+  const PointTree tree(known);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (labels[i] == 0) labels[i] = known_labels[nearest.find(points[i]).index];
+    if (labels[i] == 0) labels[i] = known_labels[tree.nearest(points[i]).index];
   }
   return labels;
 }
