@@ -328,14 +328,14 @@ class Search(DatabaseTest):
 
     def test_a_piece_finds_its_whole(self):
         points = (self.folder / "models/ball/0.xyz").read_text().splitlines()
-        piece = [line for line in points if float(line.split()[0]) < 0.2]
-        (self.folder / "piece.xyz").write_text("\n".join(piece))
+        points.sort(key=lambda line: float(line.split()[0]))
+        (self.folder / "piece.xyz").write_text("\n".join(points[:len(points) // 2]))
         hits = self.hits("piece.xyz", "--mode", "partial", "--top", "3", "--picture", "piece.png")
         self.assertEqual(hits[0]["class"], "ball")
         self.assertGreater(hits[0]["score"], 0.8)
         self.assertTrue((self.folder / "piece.png").read_bytes().startswith(PNG))
-        found = json.loads(self.morsel("compare", "models/ball/0.xyz", "piece.xyz", "--mode", "partial",
-                                       "--same-scale", "--json").stdout)
+        found = json.loads(self.morsel("compare", "models/ball/0.xyz", "piece.xyz", "--mode",
+                                       "partial", "--same-scale", "--json"))
         self.assertGreater(found["score"], 0.8)
         self.refuse(USAGE, "same_scale", "search", "--database", "shapes.db", "a", "--same-scale")
         self.refuse(USAGE, "no partial mode", "search", "--database", "shapes.db", "a",
