@@ -216,15 +216,21 @@ class Sqlite final : public Connection {
 
   [[nodiscard]] const Schema& schema() const override { return kSqliteSchema; }
   int version() override {
-    const auto application = integer("PRAGMA application_id");
-    const auto version = integer("PRAGMA user_version");
-    const bool has_tables = integer("SELECT count(*) FROM sqlite_schema") > 0;
+    // In one statement: another process may just be making the tables.
+    const auto rows = query(
+        "SELECT application_id, user_version, (SELECT count(*) FROM sqlite_schema) "
+        "FROM pragma_application_id, pragma_user_version",
+        {});
+    rows->next();
+    const std::int64_t application = rows->integer(0);
+    const std::int64_t version = rows->integer(1);
+    const bool has_tables = rows->integer(2) > 0;
     if (application != kApplicationId && (has_tables || application != 0 || version != 0)) {
       throw Error(ErrorCode::kInput, name() +
                                          ": is an SQLite file, but not a database of morsel; "
                                          "name another");
     }
-    return static_cast<int>(version.value_or(0));
+    return static_cast<int>(version);
   }
   void set_version(int version) override {
     run_script(fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {}", version,
