@@ -23,6 +23,7 @@ class Surface {
   Surface(std::span<const Vec3> points, std::span<const int> parts);
 
   struct Data;
+  /// For the functions below alone.
   [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
