@@ -23,9 +23,7 @@ Method method_of(const std::string& name, const std::string& text) {
 }
 
 GroundMode ground_mode_of(const std::string& name, const std::string& text) {
-  if (text == "auto") return GroundMode::kAuto;
-  if (text == "keep") return GroundMode::kKeep;
-  if (text == "remove") return GroundMode::kRemove;
+  if (const auto mode = ground_mode_named(text)) return *mode;
   throw CLI::ValidationError(name, fmt::format("'{}' is not auto, keep or remove", text));
 }
 

@@ -105,14 +105,12 @@ Answer find_answer(const Arguments& arguments, const Progress& progress) {
 }
 
 Image draw(const Answer& answer, MatchMode mode) {
-  std::vector<Aligned> aligned;
-  std::vector<Placed> placed;
+  std::vector<Aligned> others;
   for (std::size_t i = 0; i < answer.hits.size(); ++i) {
-    aligned.push_back({&answer.shapes[i], answer.matches[i]});
-    placed.push_back({&answer.shapes[i], answer.matches[i]});
+    others.push_back({&answer.shapes[i], answer.matches[i]});
   }
-  return mode == MatchMode::kPartial ? draw_placed(answer.query, placed)
-                                     : draw_aligned(answer.query, aligned);
+  return mode == MatchMode::kPartial ? draw_placed(answer.query, others)
+                                     : draw_aligned(answer.query, others);
 }
 
 int run_search(const Arguments& arguments) {

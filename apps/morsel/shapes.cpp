@@ -103,18 +103,18 @@ Image draw_aligned(const Subject& first, const std::vector<Aligned>& others) {
   return make_sheet(cells, captions, std::min(kColumns, cells.size()));
 }
 
-Image draw_placed(const Subject& piece, const std::vector<Placed>& wholes) {
+Image draw_placed(const Subject& piece, const std::vector<Aligned>& wholes) {
   const PictureOptions options = cell_options();
   std::vector<Image> cells{render_parts(piece.sketch.points, piece.sketch.parts, options)};
   std::vector<std::string> captions{piece.name};
-  for (const Placed& placed : wholes) {
-    std::vector<Vec3> points = placed.whole->sketch.points;
+  for (const Aligned& placed : wholes) {
+    std::vector<Vec3> points = placed.shape->sketch.points;
     std::vector<int> parts(points.size(), -1);
     const std::vector<Vec3> on_it = on_target(placed.match, piece.sketch.points);
     points.insert(points.end(), on_it.begin(), on_it.end());
     parts.insert(parts.end(), piece.sketch.parts.begin(), piece.sketch.parts.end());
     cells.push_back(render_parts(points, parts, options));
-    captions.push_back(fmt::format("{:.3f} {}", placed.match.score, placed.whole->name));
+    captions.push_back(fmt::format("{:.3f} {}", placed.match.score, placed.shape->name));
   }
   return make_sheet(cells, captions, std::min(kColumns, cells.size()));
 }

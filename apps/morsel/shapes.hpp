@@ -48,12 +48,9 @@ struct Aligned {
 };
 [[nodiscard]] Image draw_aligned(const Subject& first, const std::vector<Aligned>& others);
 
-/// A piece, then each whole in grey with the piece where it lies on it.
-struct Placed {
-  const Subject* whole;
-  Match match;  ///< target: the whole, source: the piece
-};
-[[nodiscard]] Image draw_placed(const Subject& piece, const std::vector<Placed>& wholes);
+/// A piece, then each whole in grey with the piece where it lies on it: `match` has the whole as
+/// target, the piece as source.
+[[nodiscard]] Image draw_placed(const Subject& piece, const std::vector<Aligned>& wholes);
 
 /// "name, name"
 [[nodiscard]] std::string join_tags(const std::vector<std::string>& tags);

@@ -6,6 +6,7 @@
 #include <morsel/vec3.hpp>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace morsel {
@@ -16,6 +17,11 @@ enum class GroundMode : std::uint8_t {
   kKeep,    ///< all points are of objects
   kRemove,  ///< set the plane apart that bears most points, however small or one-sided
 };
+
+/// "auto", "keep", "remove".
+[[nodiscard]] std::string_view ground_mode_name(GroundMode mode);
+/// The mode of that name, if there is one.
+[[nodiscard]] std::optional<GroundMode> ground_mode_named(std::string_view name);
 
 /// How to treat the ground.
 struct GroundOptions {
@@ -38,6 +44,9 @@ struct Ground {
   std::optional<GroundPlane> plane;  ///< none: everything is of objects
   std::vector<char> apart;           ///< (n) 1 for points of the ground; empty without a plane
   std::vector<Vec3> base;            ///< points that the scan lacks under the objects
+
+  /// Number of points of the ground. Cost: O(n).
+  [[nodiscard]] std::size_t count_apart() const;
 };
 
 /// Looks for the plane that bears most points with nearly nothing beneath it. With kAuto it counts

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _morsel
 from ._files import check_sampling, existing
-from ._match import Comparable, refuse_same_scale, segmentation, signature_bytes
+from ._match import Comparable, segmentation, signature_bytes
 from ._points import Path, PointsLike, Progress
 from ._segment import Segmentation, segment
 from ._signature import Signature
@@ -209,8 +209,7 @@ class Database:
             found = self._file.search_partial(segmentation(query)._shape, top, method, mirror,
                                               same_scale)
         else:
-            refuse_same_scale(mode, same_scale)
-            found = self._file.search(signature_bytes(query), top, method, mode, mirror)
+            found = self._file.search(signature_bytes(query), top, method, mode, mirror, same_scale)
         return [LookAlike(ShapeInfo(*info), score) for info, score in found]
 
     def matrix(self, *, method: str = "default", mode: str = "rigid",

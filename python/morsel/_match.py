@@ -76,16 +76,11 @@ def match(target: Comparable, source: Comparable, *, method: str = "default",
         found = _morsel.match_partial(segmentation(target)._shape, segmentation(source)._shape,
                                       method, mirror, same_scale)
     else:
-        refuse_same_scale(mode, same_scale)
-        found = _morsel.match(signature_bytes(target), signature_bytes(source), method, mode, mirror)
+        found = _morsel.match(signature_bytes(target), signature_bytes(source), method, mode, mirror,
+                              same_scale)
     score, matrix, mirrored, pairs, unmatched_target, unmatched_source = found
     return Match(score, matrix, mirrored, [Correspondence(*pair) for pair in pairs],
                  unmatched_target, unmatched_source)
-
-
-def refuse_same_scale(mode: str, same_scale: bool) -> None:
-    if same_scale:
-        raise ValueError(f"same_scale: only the mode 'partial' tells scales apart, not {mode!r}")
 
 
 def segmentation(shape: Comparable) -> Segmentation:

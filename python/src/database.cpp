@@ -157,9 +157,9 @@ py::list list_of(const std::vector<LookAlike>& found) {
 }
 
 py::list search(const File& file, const std::string& query, std::size_t top,
-                const std::string& method, const std::string& mode, bool mirror) {
+                const std::string& method, const std::string& mode, bool mirror, bool same_scale) {
   const std::shared_ptr<Database> database = file.database();
-  const MatchOptions options = match_options(method, mode, mirror);
+  const MatchOptions options = match_options(method, mode, mirror, same_scale);
   return list_of(short_work([&] { return database->search(signature_of(query), top, options); }));
 }
 
@@ -204,7 +204,7 @@ void bind_database(py::module_& module) {
       .def("remove", &remove, py::arg("names"))
       .def("rename", &rename, py::arg("old"), py::arg("new"))
       .def("search", &search, py::arg("query"), py::arg("top"), py::arg("method"), py::arg("mode"),
-           py::arg("mirror"))
+           py::arg("mirror"), py::arg("same_scale"))
       .def("search_partial", &search_partial, py::arg("query"), py::arg("top"), py::arg("method"),
            py::arg("mirror"), py::arg("same_scale"))
       .def("matrix", &matrix, py::arg("method"), py::arg("mode"), py::arg("mirror"),

@@ -28,8 +28,9 @@ py::tuple tuple_of(const Match& found) {
 }
 
 py::tuple match_signatures(const std::string& target, const std::string& source,
-                           const std::string& method, const std::string& mode, bool mirror) {
-  const MatchOptions options = match_options(method, mode, mirror);
+                           const std::string& method, const std::string& mode, bool mirror,
+                           bool same_scale) {
+  const MatchOptions options = match_options(method, mode, mirror, same_scale);
   return tuple_of(
       short_work([&] { return match(signature_of(target), signature_of(source), options); }));
 }
@@ -61,7 +62,7 @@ MatchOptions match_options(const std::string& method, const std::string& mode, b
 
 void bind_match(py::module_& module) {
   module.def("match", &match_signatures, py::arg("target"), py::arg("source"), py::arg("method"),
-             py::arg("mode"), py::arg("mirror"));
+             py::arg("mode"), py::arg("mirror"), py::arg("same_scale"));
   module.def("match_partial", &match_pieces, py::arg("target"), py::arg("source"),
              py::arg("method"), py::arg("mirror"), py::arg("same_scale"));
 }

@@ -31,9 +31,7 @@ Method method_of(const std::string& name) {
 namespace {
 
 GroundMode ground_of(const std::string& name) {
-  if (name == "auto") return GroundMode::kAuto;
-  if (name == "keep") return GroundMode::kKeep;
-  if (name == "remove") return GroundMode::kRemove;
+  if (const auto mode = ground_mode_named(name)) return *mode;
   throw Error(ErrorCode::kUsage, "ground is '" + name + "'; it must be 'auto', 'keep' or 'remove'");
 }
 

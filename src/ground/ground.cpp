@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <morsel/ground.hpp>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "base/box.hpp"
@@ -14,17 +17,11 @@ namespace {
 constexpr std::size_t kSample = 4096;
 // So many planes may bear more points than the ground.
 constexpr int kPlanes = 3;
-
-// Every k-th along a curve that fills space, so evenly from everywhere.
-std::vector<Vec3> sample_of(const std::vector<Vec3>& points) {
-  std::vector<Vec3> sample;
-  const std::size_t count = std::min(kSample, points.size());
-  for (std::size_t i = 0; i < count; ++i) sample.push_back(points[i * points.size() / count]);
-  return sample;
-}
+// In the order of GroundMode.
+constexpr std::array<std::string_view, 3> kModeNames{"auto", "keep", "remove"};
 
 std::optional<GroundPlane> choose_plane(const std::vector<Vec3>& points, GroundMode mode) {
-  const std::vector<Vec3> sample = sample_of(points);
+  const std::vector<Vec3> sample = evenly_chosen(points, kSample);
   const double diagonal = bounding_box(sample).diagonal();
   std::vector<Vec3> left = sample;
   for (int i = 0; i < kPlanes; ++i) {
@@ -38,6 +35,20 @@ std::optional<GroundPlane> choose_plane(const std::vector<Vec3>& points, GroundM
 }
 
 }  // namespace
+
+std::string_view ground_mode_name(GroundMode mode) {
+  return kModeNames[static_cast<std::size_t>(mode)];
+}
+
+std::optional<GroundMode> ground_mode_named(std::string_view name) {
+  const auto* const at = std::ranges::find(kModeNames, name);
+  if (at == kModeNames.end()) return std::nullopt;
+  return static_cast<GroundMode>(at - kModeNames.begin());
+}
+
+std::size_t Ground::count_apart() const {
+  return static_cast<std::size_t>(std::ranges::count(apart, char{1}));
+}
 
 Ground find_ground(std::span<const Vec3> points, const GroundOptions& options) {
   Ground ground;

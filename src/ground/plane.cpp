@@ -38,9 +38,7 @@ Support support_of(std::span<const Vec3> points, const GroundPlane& plane) {
 
 // Of planes through three random points that for which most speaks.
 std::optional<GroundPlane> guess_plane(std::span<const Vec3> points, double reach) {
-  std::vector<Vec3> jury;
-  const std::size_t count = std::min(kJury, points.size());
-  for (std::size_t i = 0; i < count; ++i) jury.push_back(points[i * points.size() / count]);
+  const std::vector<Vec3> jury = evenly_chosen(points, kJury);
   Random random(1);
   const auto pick = [&] { return points[random.below(points.size())]; };
   std::optional<GroundPlane> best;
@@ -148,6 +146,13 @@ double open_sides(std::span<const Vec3> points, const GroundPlane& plane) {
 }
 
 }  // namespace
+
+std::vector<Vec3> evenly_chosen(std::span<const Vec3> points, std::size_t most) {
+  std::vector<Vec3> chosen;
+  const std::size_t count = std::min(most, points.size());
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(points[i * points.size() / count]);
+  return chosen;
+}
 
 std::optional<GroundPlane> find_plane(std::span<const Vec3> points, double diagonal) {
   if (points.size() < 3) return std::nullopt;

@@ -124,6 +124,16 @@ double overlap(const std::vector<Blob>& a, const std::vector<Blob>& b) {
   return sum;
 }
 
+std::array<double, 16> as_matrix(const Eigen::Matrix3d& linear, const Eigen::Vector3d& shift) {
+  std::array<double, 16> result{};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) result[4 * i + k] = linear(i, k);
+    result[4 * i + 3] = shift[i];
+  }
+  result[15] = 1.0;
+  return result;
+}
+
 std::vector<Blob> moved(const std::vector<Blob>& blobs, const Alignment& by) {
   std::vector<Blob> result = blobs;
   for (Blob& blob : result) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <morsel/signature.hpp>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct Alignment {
 /// Cost: some tens of milliseconds for twelve parts.
 [[nodiscard]] Alignment align(const std::vector<Blob>& target, const std::vector<Blob>& source,
                               bool mirror);
+
+/// x ↦ linear · x + shift as a row-major 4×4.
+[[nodiscard]] std::array<double, 16> as_matrix(const Eigen::Matrix3d& linear,
+                                               const Eigen::Vector3d& shift);
 
 [[nodiscard]] std::vector<Blob> moved(const std::vector<Blob>& blobs, const Alignment& by);
 

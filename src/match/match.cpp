@@ -27,13 +27,7 @@ std::array<double, 16> transform(const Signature& target, const Signature& sourc
   const Eigen::Vector3d to(target.centroid.x, target.centroid.y, target.centroid.z);
   const Eigen::Vector3d from(source.centroid.x, source.centroid.y, source.centroid.z);
   const Eigen::Vector3d shift = to + target.size * alignment.shift - scale * (turn * from);
-  std::array<double, 16> result{};
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) result[4 * i + k] = scale * turn(i, k);
-    result[4 * i + 3] = shift[i];
-  }
-  result[15] = 1.0;
-  return result;
+  return as_matrix(scale * turn, shift);
 }
 
 // Of a shape that is nearly its own mirror image, noise alone would say which is which: mirrored
@@ -135,7 +129,9 @@ void MatchOptions::check() const {
                 fmt::format("mode: the paper's score has no {} mode; use rigid", mode_name(mode)));
   }
   if (same_scale && mode != MatchMode::kPartial) {
-    throw Error(ErrorCode::kUsage, "same_scale: only the partial mode tells scales apart");
+    throw Error(ErrorCode::kUsage,
+                fmt::format("same_scale: only the mode 'partial' tells scales apart, not '{}'",
+                            mode_name(mode)));
   }
 }
 

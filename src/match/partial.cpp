@@ -18,6 +18,7 @@
 
 #include "base/random.hpp"
 #include "base/threads.hpp"
+#include "match/align.hpp"
 #include "match/surface.hpp"
 
 namespace morsel {
@@ -74,16 +75,13 @@ float difference(const Surroundings& a, const Surroundings& b) {
   return sum;
 }
 
-// With a known scale only surroundings of nearly the same radius can be the same.
-bool can_be_scale(const Data& whole, const Data& piece, std::size_t scale, bool same_scale) {
-  const double ratio = radius_at(whole, scale) / radius_at(piece, 0);
-  return !same_scale || (ratio < kScaleStep && ratio > 1.0 / kScaleStep);
-}
-
+// The scales of the whole that the piece may have: with a known one only those whose radius is
+// nearly the same.
 std::vector<std::size_t> scales_of(const Data& whole, const Data& piece, bool same_scale) {
   std::vector<std::size_t> scales;
   for (std::size_t scale = 0; scale < kScales; ++scale) {
-    if (can_be_scale(whole, piece, scale, same_scale)) scales.push_back(scale);
+    const double ratio = radius_at(whole, scale) / radius_at(piece, 0);
+    if (!same_scale || (ratio < kScaleStep && ratio > 1.0 / kScaleStep)) scales.push_back(scale);
   }
   return scales;
 }
@@ -422,16 +420,6 @@ void pair_parts(const Data& whole, const Data& piece, const Placement& placement
   }
 }
 
-std::array<double, 16> transform(const Placement& placement) {
-  std::array<double, 16> result{};
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) result[4 * i + k] = placement.scale * placement.turn(i, k);
-    result[4 * i + 3] = placement.shift[i];
-  }
-  result[15] = 1.0;
-  return result;
-}
-
 }  // namespace
 
 double recurrence(const Surface& whole, const Surface& piece, const MatchOptions& options) {
@@ -462,7 +450,7 @@ Match match_partial(const Surface& whole, const Surface& piece, const MatchOptio
   if (!(from.size > 0.0) || !(to.size > 0.0)) return result;
   const Placement placement = place(to, from, options);
   result.score = std::min(1.0, placement.fit);
-  result.target_from_source = transform(placement);
+  result.target_from_source = as_matrix(placement.scale * placement.turn, placement.shift);
   result.mirrored = placement.turn.determinant() < 0.0;
   pair_parts(to, from, placement, result);
   return result;

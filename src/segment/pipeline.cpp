@@ -158,8 +158,7 @@ std::string describe_objects(const Segmentation& s) {
 std::string describe(const Segmentation& s) {
   std::string text = describe_objects(s);
   if (s.ground.plane) {
-    text += fmt::format(" The ground was set apart, {} points.",
-                        std::ranges::count(s.ground.apart, char{1}));
+    text += fmt::format(" The ground was set apart, {} points.", s.ground.count_apart());
   }
   return text;
 }

@@ -1,6 +1,5 @@
 // The report of a segmentation as JSON.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <morsel/morsel.hpp>
@@ -27,18 +26,6 @@ const char* verdict_name(Verdict verdict) {
   return "";
 }
 
-const char* ground_name(GroundMode mode) {
-  switch (mode) {
-    case GroundMode::kAuto:
-      return "auto";
-    case GroundMode::kKeep:
-      return "keep";
-    case GroundMode::kRemove:
-      return "remove";
-  }
-  return "";
-}
-
 Json options_json(const SegmentOptions& options, const Segmentation& s) {
   Json json;
   const bool paper = options.interior.method == Method::kPaper;
@@ -48,15 +35,11 @@ Json options_json(const SegmentOptions& options, const Segmentation& s) {
     json["deep_angle_degrees"] = options.interior.deep_angle;
   } else {
     json["denoise"] = options.denoise.rounds ? Json(*options.denoise.rounds) : Json("auto");
-    json["ground"] = ground_name(options.ground.mode);
+    json["ground"] = ground_mode_name(options.ground.mode);
   }
   if (options.cut.parts) json["parts"] = *options.cut.parts;
   if (s.verdict == Verdict::kSolid) json["merge_ratio"] = s.parts.merge_ratio;
   return json;
-}
-
-std::size_t ground_points(const Segmentation& s) {
-  return static_cast<std::size_t>(std::ranges::count(s.ground.apart, char{1}));
 }
 
 // Null without a ground.
@@ -65,7 +48,7 @@ Json ground_json(const Segmentation& s) {
   return {{"normal", vector_json(s.ground.plane->normal)},
           {"offset", s.ground.plane->offset},
           {"thickness", s.ground.plane->thickness},
-          {"points", ground_points(s)}};
+          {"points", s.ground.count_apart()}};
 }
 
 Json counts_json(const Segmentation& s) {
@@ -77,7 +60,8 @@ Json counts_json(const Segmentation& s) {
           {"parts", s.parts.parts.size()}};
 }
 
-Json part_json(const Part& part, int index, const Segmentation& s) {
+// `points`: of all objects.
+Json part_json(const Part& part, int index, const Segmentation& s, std::size_t points) {
   Json json;
   json["part"] = index;
   json["object"] = part.object;
@@ -87,8 +71,7 @@ Json part_json(const Part& part, int index, const Segmentation& s) {
   json["covariance"] = part.covariance;
   json["largest_ball"] = {{"center", vector_json(part.ball_center)}, {"radius", part.ball_radius}};
   json["points"] = part.point_count;
-  json["point_share"] = static_cast<double>(part.point_count) /
-                        static_cast<double>(s.tree.piece_of_point.size() - ground_points(s));
+  json["point_share"] = static_cast<double>(part.point_count) / static_cast<double>(points);
   json["neighbors"] = Json::array();
   for (const PartNeighbor& neighbor : part.neighbors) {
     json["neighbors"].push_back({{"part", neighbor.part}, {"neck_radius", neighbor.neck_radius}});
@@ -140,8 +123,9 @@ std::string report_json(const Segmentation& segmentation, const SegmentOptions& 
   json["open_share"] = s.interior.open_share;
   json["bare_share"] = s.interior.bare_share;
   json["parts"] = Json::array();
+  const std::size_t points = s.tree.piece_of_point.size() - s.ground.count_apart();
   for (std::size_t i = 0; i < s.parts.parts.size(); ++i) {
-    json["parts"].push_back(part_json(s.parts.parts[i], static_cast<int>(i), s));
+    json["parts"].push_back(part_json(s.parts.parts[i], static_cast<int>(i), s, points));
   }
   json["levels"] = s.verdict == Verdict::kSolid ? levels_json(s.tree) : Json::array();
   json["stages"] = Json::array();

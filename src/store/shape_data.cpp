@@ -23,7 +23,7 @@ std::string options_text(const SegmentOptions& options) {
     text += fmt::format(", denoise {}", *options.denoise.rounds);
   }
   if (interior.method != Method::kPaper && options.ground.mode != GroundMode::kAuto) {
-    text += options.ground.mode == GroundMode::kKeep ? ", ground keep" : ", ground remove";
+    text += fmt::format(", ground {}", ground_mode_name(options.ground.mode));
   }
   if (options.cut.parts) text += fmt::format(", parts {}", *options.cut.parts);
   if (options.cut.merge_ratio) text += fmt::format(", merge_ratio {}", *options.cut.merge_ratio);
