@@ -21,18 +21,6 @@ namespace {
 constexpr std::size_t kMaxStreamBytes = std::size_t{4} << 30;
 constexpr std::size_t kFirstChunk = std::size_t{1} << 16;
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (is_control(c) || (c >= '\t' && c <= '\r')) {
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -70,6 +58,18 @@ std::string lower_extension(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (is_control(c) || (c >= '\t' && c <= '\r')) {
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
 
 std::string display_name(const std::filesystem::path& path) { return escaped(path.string()); }
 

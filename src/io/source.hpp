@@ -37,6 +37,9 @@ struct Source {
 [[noreturn]] void fail_at_point(const std::string& name, std::size_t point,
                                 const std::string& message);
 
+/// `text` for a message of one line: control characters as \xNN.
+[[nodiscard]] std::string escaped(std::string_view text);
+
 /// `text` in quotes for a message: cut after some 40 characters, control characters as \xNN.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "io/source.hpp"
 #include "store/schema.hpp"
 
 namespace morsel::store {
@@ -139,10 +140,11 @@ Meaning meaning_of(int sqlite_code) {
   }
 }
 
-// Throws what SQLite said as morsel::Error about the database of that name.
+// Throws what SQLite said as morsel::Error about the database of that name. It repeats what stands
+// in damaged tables.
 [[noreturn]] void rethrow(const std::string& name, const SQLite::Exception& error) {
   const auto [code, reason] = meaning_of(error.getErrorCode());
-  throw Error(code, fmt::format("{}: {} (SQLite: {}, {})", name, reason, error.what(),
+  throw Error(code, fmt::format("{}: {} (SQLite: {}, {})", name, reason, io::escaped(error.what()),
                                 error.getExtendedErrorCode()));
 }
 
