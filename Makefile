@@ -1,11 +1,11 @@
 # The two commands of the README are `make demo` and `make test`; each installs what it needs.
 .DEFAULT_GOAL := help
-.PHONY: help demo test sanitize fuzz bench reproduce lint docs format install package clean
+.PHONY: help demo test sanitize fuzz bench bench-guard reproduce lint docs format install package clean
 export INPUT ARGS
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
 help:  ## List the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
 
 demo:  ## Segment example scans, or INPUT=scan.ply [ARGS="--parts 5"]; results in out/
 	@scripts/demo.sh
@@ -24,6 +24,10 @@ bench:  ## Run the benchmarks: ARGS="segmentation --help"
 	@cmake --preset release
 	@cmake --build --preset release --target morsel_bench
 	@build/release/apps/morsel-bench/morsel-bench $(or $(ARGS),--help)
+
+bench-guard:  ## Say which of the small cases got slower than the record of docs/performance.md
+	@$(MAKE) --no-print-directory bench \
+	  ARGS="scaling --points 10000 30000 --against apps/morsel-bench/record.json"
 
 reproduce:  ## Measure all that the paper shows: out/reproduction/index.html; ARGS="--psb DIR"
 	@scripts/reproduce.sh

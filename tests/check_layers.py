@@ -23,7 +23,7 @@ TRIANGULATION = re.compile(r"CGAL/(Delaunay_triangulation|Triangulation|Regular_
 TRIANGULATING = (
     pathlib.PurePath("src/delaunay/triangulate.cpp"),
     pathlib.PurePath("src/delaunay/exact_test.cpp"),
-    pathlib.PurePath("apps/morsel-bench/time.cpp"),
+    pathlib.PurePath("apps/morsel-bench/scaling.cpp"),
 )
 OUTSIDE_DATA = re.compile("/work/" + r"shared|\bshared/" + "data")
 

@@ -12,9 +12,9 @@ void add_interior(CLI::App& app);
 void add_partial(CLI::App& app);
 void add_peers(CLI::App& app);
 void add_retrieval(CLI::App& app);
+void add_scaling(CLI::App& app);
 void add_search(CLI::App& app);
 void add_segmentation(CLI::App& app);
 void add_stability(CLI::App& app);
-void add_time(CLI::App& app);
 
 }  // namespace morsel::bench

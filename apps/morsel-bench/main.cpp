@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   morsel::bench::add_stability(app);
   morsel::bench::add_search(app);
   morsel::bench::add_database(app);
-  morsel::bench::add_time(app);
+  morsel::bench::add_scaling(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -80,7 +80,7 @@ void add_method_options(CLI::App& app, SegmentOptions& options) {
         interior.deep_angle = number(name, text, {0.0, 180.0});
       })
       ->group("Method");
-  add(app, "--denoise", "auto|off|K", "Smooth K times first, 1 to 20 [auto]",
+  add(app, "--denoise", "auto|off|K", "Smooth K times, 1 to 20; off: not, take all points [auto]",
       [&options](const std::string& name, const std::string& text) {
         if (text == "auto") return;
         if (!text.empty() && (text[0] < '0' || text[0] > '9') && text != "off") {

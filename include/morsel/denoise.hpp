@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <morsel/progress.hpp>
 #include <morsel/vec3.hpp>
 #include <optional>
@@ -21,6 +22,8 @@ struct DenoiseOptions {
   /// Outliers are set apart in any case.
   std::optional<int> rounds;
   int threads = 0;  ///< 0: all cores. The result does not depend on it.
+  /// Of more points so many go on, spread evenly; >= 1. segment() chooses it.
+  std::size_t most_points = std::numeric_limits<std::size_t>::max();
 
   /// Throws Error(kUsage) that names field, value and range.
   void check() const;
@@ -28,10 +31,10 @@ struct DenoiseOptions {
 
 /// The points that go on to the triangulation.
 struct Denoised {
-  std::vector<Vec3> points;             ///< (m, 3) distinct, in canonical order, outliers left out,
-                                        ///< moved where smoothing moved them
+  std::vector<Vec3> points;  ///< (m, 3) distinct, along the canonical order, outliers left
+                             ///< out, moved where smoothing moved them
   std::vector<std::uint32_t> stand_in;  ///< (n) index into `points` for each input point: its own,
-                                        ///< for an outlier that of the nearest point kept;
+                                        ///< for one left out that of the nearest point kept;
                                         ///< kNoStandIn in a Segmentation for the ground's
   double noise = 0.0;             ///< estimated standard deviation across the surface, in units
   double spacing = 0.0;           ///< median distance to the twelfth nearest neighbour, in units
@@ -41,9 +44,9 @@ struct Denoised {
 
 /// Sets apart points far from all others, estimates the noise from how far points lie off the
 /// planes through their neighbours and, when it is large against the spacing, moves each point
-/// along its normal onto the surface that its neighbours agree on (bilateral smoothing).
-/// Throws Error(kInput) for a coordinate that is not finite, Error(kCancelled).
-/// Cost: O(n log n); independent of the order of the points and of the number of threads.
+/// along its normal onto the surface that its neighbours agree on (bilateral smoothing). Throws
+/// Error(kInput) for a coordinate that is not finite, Error(kCancelled). Cost: O(n log n);
+/// independent of the order of the points and of the number of threads.
 [[nodiscard]] Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options = {},
                                const Progress* progress = nullptr);
 

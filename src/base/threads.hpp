@@ -23,27 +23,49 @@ inline int resolve_threads(int threads) {
   return threads > 0 ? threads : tbb::info::default_concurrency();
 }
 
-/// Tells the thread sanitizer what it cannot see, as Debian's oneTBB is not built with it: what the
-/// giver of tasks did comes before them, and they before what the giver does after its wait. It is
-/// told nothing that would order two tasks. Does nothing in other builds.
+/// Tells the thread sanitizer what it cannot see, as Debian's oneTBB is not built with it: that a
+/// task is copied before it runs, and that all tasks come before what the giver of them does after
+/// its wait. It is told nothing that would order two tasks. Does nothing in other builds.
 #ifdef __SANITIZE_THREAD__
-inline char tasks_given;
 inline char tasks_done;
 struct GiverScope {
-  GiverScope() { __tsan_release(&tasks_given); }
+  GiverScope() {}
   ~GiverScope() { __tsan_acquire(&tasks_done); }
 };
-struct TaskScope {
-  TaskScope() { __tsan_acquire(&tasks_given); }
-  ~TaskScope() { __tsan_release(&tasks_done); }
+template <typename Task>
+class Handed {
+ public:
+  explicit Handed(Task task) : task_(std::move(task)) { __tsan_release(this); }
+  Handed(const Handed& other) : task_(other.arrived().task_) { __tsan_release(this); }
+  Handed& operator=(const Handed&) = delete;
+  ~Handed() = default;
+
+  template <typename... Arguments>
+  void operator()(Arguments&&... arguments) const {
+    arrived().task_(std::forward<Arguments>(arguments)...);
+    __tsan_release(&tasks_done);
+  }
+
+ private:
+  [[nodiscard]] const Handed& arrived() const {
+    __tsan_acquire(const_cast<Handed*>(this));
+    return *this;
+  }
+
+  Task task_;
 };
+template <typename Task>
+[[nodiscard]] Handed<Task> handed(Task task) {
+  return Handed<Task>(std::move(task));
+}
 #else
 struct GiverScope {
   GiverScope() {}
 };
-struct TaskScope {
-  TaskScope() {}
-};
+template <typename Task>
+[[nodiscard]] Task handed(Task task) {
+  return task;
+}
 #endif
 
 /// Calls body(begin, end) over disjoint ranges that cover [0, count), on at most `threads` threads.
@@ -57,10 +79,8 @@ void parallel_ranges(std::size_t count, int threads, const Body& body) {
     return;
   }
   const tbb::blocked_range<std::size_t> all(0, count, kGrain);
-  const auto task = [&body](const tbb::blocked_range<std::size_t>& range) {
-    const TaskScope scope;
-    body(range.begin(), range.end());
-  };
+  const auto task = handed(
+      [&body](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
   const GiverScope giver;
   tbb::task_arena arena(threads);
   arena.execute([&] { tbb::parallel_for(all, task); });
@@ -74,10 +94,7 @@ void parallel_rows(std::size_t count, int threads, const Body& body) {
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
   }
-  const auto task = [&body](std::size_t i) {
-    const TaskScope scope;
-    body(i);
-  };
+  const auto task = handed([&body](std::size_t i) { body(i); });
   const GiverScope giver;
   tbb::task_arena arena(threads);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, task); });
@@ -123,13 +140,7 @@ class BackgroundTasks {
 
   template <typename Task>
   void run(Task task) {
-    const GiverScope giver;
-    arena_.execute([&] {
-      group_.run([task = std::move(task)] {
-        const TaskScope scope;
-        task();
-      });
-    });
+    arena_.execute([&] { group_.run(handed(std::move(task))); });
   }
   void wait() {
     const GiverScope giver;

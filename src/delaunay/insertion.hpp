@@ -44,7 +44,9 @@ class Insertion {
   Insertion(Delaunay& delaunay, const std::vector<Vec3>& points, Locks* locks)
       : delaunay_(delaunay), points_(points), locks_(locks), vertices_(points.size()) {}
 
+  /// Throws Error(kCancelled) within some thousand points of being asked to.
   void run(const Progress* progress) {
+    progress_ = progress;
     const auto rounds = insertion_rounds(static_cast<std::uint32_t>(points_.size()));
     for (const auto& round : rounds) {
       // The first round makes the triangulation large enough for threads to keep out of each
@@ -54,11 +56,16 @@ class Insertion {
       } else {
         insert_beside_each_other(round);
       }
-      if (progress != nullptr) progress->check();
     }
   }
 
  private:
+  static constexpr std::size_t kChunk = 1024;
+
+  void check() const {
+    if (progress_ != nullptr) progress_->check();
+  }
+
   [[nodiscard]] Point point(std::uint32_t i) const {
     return {points_[i].x, points_[i].y, points_[i].z};
   }
@@ -72,7 +79,9 @@ class Insertion {
   void insert_in_turn(const std::vector<std::uint32_t>& round) {
     delaunay_.set_lock_data_structure(nullptr);
     Vertex hint;
-    for (const std::uint32_t i : round) {
+    for (std::size_t r = 0; r < round.size(); ++r) {
+      if (r % kChunk == 0) check();
+      const std::uint32_t i = round[r];
       hint = delaunay_.insert(point(i), hint);
       hint->info() = i;
       vertices_[i] = hint;
@@ -80,18 +89,17 @@ class Insertion {
   }
 
   void insert_beside_each_other(const std::vector<std::uint32_t>& round) {
-    constexpr std::size_t kChunk = 1024;
     delaunay_.set_lock_data_structure(locks_);
     std::vector<Vertex> hints;
     for (std::size_t begin = 0; begin < round.size(); begin += kChunk) {
       hints.push_back(vertex_before(round[begin]));
     }
-    const auto insert_chunk = [&](std::size_t chunk) {
-      const TaskScope task;
+    const auto insert_chunk = handed([&](std::size_t chunk) {
+      check();
       Vertex hint = hints[chunk];
       const std::size_t end = std::min((chunk + 1) * kChunk, round.size());
       for (std::size_t r = chunk * kChunk; r < end; ++r) hint = insert_locked(round[r], hint);
-    };
+    });
     const GiverScope giver;
     tbb::parallel_for(std::size_t{0}, hints.size(), insert_chunk);
   }
@@ -124,6 +132,7 @@ class Insertion {
   const std::vector<Vec3>& points_;
   Locks* locks_;
   std::vector<Vertex> vertices_;  // of the points that are in
+  const Progress* progress_ = nullptr;
 };
 
 }  // namespace morsel

@@ -23,11 +23,9 @@ constexpr double kNoisyShare = 0.05;
 
 // Points whose neighbours are several times farther away than those of the cloud at large, or than
 // their own neighbours' neighbours.
-std::vector<bool> find_outliers(const Neighborhoods& neighborhoods, int threads) {
-  constexpr double kFromCloud = 3.0;
+std::vector<bool> find_outliers(const Neighborhoods& neighborhoods, double far, int threads) {
   constexpr double kFromNeighbors = 1.6;
   const std::vector<double>& reach = neighborhoods.reach;
-  const double far = kFromCloud * quantile(reach, 0.9);
   std::vector<char> is_outlier(reach.size(), 0);
   parallel_ranges(reach.size(), threads, [&](std::size_t begin, std::size_t end) {
     std::vector<double> around(neighborhoods.size);
@@ -55,19 +53,35 @@ std::vector<Value> select(const std::vector<Value>& values, const std::vector<bo
   return kept;
 }
 
-// The cloud in canonical order without its outliers, and where each input point stands in it.
+// The cloud along the canonical order without its outliers and what is beyond the number asked for,
+// and where each input point stands in it.
 struct Cleaned {
   std::vector<Vec3> points;
   std::vector<std::uint32_t> stand_in;  // (n) index into points
-  std::vector<bool> is_outlier;         // (n)
+  std::size_t outlier_count = 0;        // of the input
   double noise = 0.0;                   // of the points kept
   double spacing = 0.0;                 // the median reach of the points kept
 };
 
-Cleaned drop_outliers(std::span<const Vec3> input, int threads) {
+// `count` of the points, spread evenly along the curve; each answers for those nearest to it.
+SpatialOrder keep_evenly(std::size_t count, const SpatialOrder& all, int threads) {
+  SpatialOrder kept;
+  for (std::size_t k = 0; k < count; ++k) {
+    kept.points.push_back(all.points[k * all.points.size() / count]);
+  }
+  const std::vector<std::uint32_t> nearest = find_nearest(kept.points, all.points, threads);
+  kept.order_of_point.reserve(all.order_of_point.size());
+  for (const std::uint32_t i : all.order_of_point) kept.order_of_point.push_back(nearest[i]);
+  return kept;
+}
+
+Cleaned drop_outliers(std::span<const Vec3> input, std::size_t most, int threads) {
+  constexpr double kFromCloud = 3.0;
   SpatialOrder order = sort_spatially(input, threads);
+  if (order.points.size() > most) order = keep_evenly(most, order, threads);
   const Neighborhoods neighborhoods = find_neighborhoods(order.points, kNeighbors, threads);
-  const std::vector<bool> drop = find_outliers(neighborhoods, threads);
+  const double far = kFromCloud * quantile(neighborhoods.reach, 0.9);
+  const std::vector<bool> drop = find_outliers(neighborhoods, far, threads);
   Cleaned cleaned;
   cleaned.points = select(order.points, drop);
   cleaned.spacing = quantile(select(neighborhoods.reach, drop), 0.5);
@@ -87,9 +101,10 @@ Cleaned drop_outliers(std::span<const Vec3> input, int threads) {
   for (std::size_t i = 0, k = 0; i < order.points.size(); ++i) {
     if (drop[i]) target[i] = nearest[k++];
   }
-  for (const std::uint32_t i : order.order_of_point) {
-    cleaned.stand_in.push_back(target[i]);
-    cleaned.is_outlier.push_back(drop[i]);
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    const std::uint32_t own = order.order_of_point[i];
+    cleaned.stand_in.push_back(target[own]);
+    cleaned.outlier_count += drop[own] || distance(input[i], order.points[own]) > far ? 1 : 0;
   }
   return cleaned;
 }
@@ -101,16 +116,17 @@ void DenoiseOptions::check() const {
     throw Error(ErrorCode::kUsage, "denoise rounds are " + std::to_string(*rounds) +
                                        "; they must be 0 to 20, or auto");
   }
+  if (most_points == 0) throw Error(ErrorCode::kUsage, "most_points is 0; it must be 1 or more");
 }
 
 Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
                  const Progress* progress) {
   options.check();
   Denoised result;
-  Cleaned cleaned = drop_outliers(points, options.threads);
+  Cleaned cleaned = drop_outliers(points, options.most_points, options.threads);
   result.points = std::move(cleaned.points);
   result.stand_in = std::move(cleaned.stand_in);
-  result.outlier_count = static_cast<std::size_t>(std::ranges::count(cleaned.is_outlier, true));
+  result.outlier_count = cleaned.outlier_count;
   if (result.points.size() <= kNeighbors) return result;
   if (progress != nullptr) progress->check();
   result.noise = cleaned.noise;

@@ -115,6 +115,27 @@ TEST(DenoiseTest, DoesNotDependOnOrderOrThreads) {
   expect_same(shuffled, denoise(shapes::permuted(points, shuffle)));
 }
 
+TEST(DenoiseTest, OfMorePointsSoManyGoOn) {
+  const Points clean = shapes::sphere(9000);
+  Points points = clean;
+  for (const Vec3& p : shapes::scaled(shapes::cube_cloud(300), 20.0)) {
+    points.push_back(p + Vec3{2.0, 2.0, 2.0});
+  }
+  const Denoised all = denoise(points);
+  const Denoised some = denoise(points, {.rounds = {}, .threads = 2, .most_points = 3100});
+  expect_sound(points, some);
+  EXPECT_NEAR(static_cast<double>(some.points.size()), 3000.0, 50.0);
+  // All outliers count, those that were not looked at too.
+  EXPECT_NEAR(static_cast<double>(some.outlier_count), static_cast<double>(all.outlier_count),
+              60.0);
+  for (std::size_t i = 0; i < clean.size(); ++i) {
+    EXPECT_LT(distance(clean[i], some.points[some.stand_in[i]]), 0.3);
+  }
+  expect_same(some, denoise(points, {.rounds = {}, .threads = 1, .most_points = 3100}));
+  EXPECT_EQ(denoise(points, {.rounds = {}, .threads = 0, .most_points = 9300}).points, all.points);
+  EXPECT_THROW((void)denoise(points, {.rounds = {}, .threads = 0, .most_points = 0}), Error);
+}
+
 TEST(DenoiseTest, RepeatedPointsShareTheirStandIn) {
   const Points once = shapes::noisy(shapes::sphere(2000), 0.01);
   const Denoised denoised = denoise(shapes::joined(once, once));

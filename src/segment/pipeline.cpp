@@ -8,6 +8,8 @@
 #include <morsel/morsel.hpp>
 #include <utility>
 
+#include "denoise/thin.hpp"
+
 namespace morsel {
 namespace {
 
@@ -26,17 +28,30 @@ class StageRunner {
   // `fraction` of all work lies before this stage.
   template <typename Work>
   auto run(const char* stage, double fraction, const Work& work) {
-    if (progress_ != nullptr) progress_->report(stage, fraction);
+    done_ = std::max(done_, fraction);  // stages may be run again
+    if (progress_ != nullptr) progress_->report(stage, done_);
     const auto began = std::chrono::steady_clock::now();
     auto result = work();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began;
-    costs_.push_back({stage, taken.count(), peak_bytes()});
+    add({stage, taken.count(), peak_bytes()});
     return result;
   }
 
  private:
+  // A stage that is run again is still one.
+  void add(const StageCost& cost) {
+    const auto known = std::ranges::find(costs_, cost.stage, &StageCost::stage);
+    if (known == costs_.end()) {
+      costs_.push_back(cost);
+    } else {
+      known->seconds += cost.seconds;
+      known->peak_bytes = cost.peak_bytes;
+    }
+  }
+
   std::vector<StageCost>& costs_;
   const Progress* progress_;
+  double done_ = 0.0;
 };
 
 Denoised take_as_they_are(std::span<const Vec3> points) {
@@ -163,6 +178,75 @@ std::string describe(const Segmentation& s) {
   return text;
 }
 
+// More points than these, evenly spread, make worse parts rather than better ones; thin walls may
+// need more, which shows in the surface that has no inside behind it.
+constexpr std::size_t kEnoughPoints = 20000;
+constexpr std::size_t kManyMore = 4;
+constexpr double kLostSurface = 0.02;
+
+// What the stages up to the basins make of the points.
+struct Attempt {
+  Denoised denoised;
+  DelaunayComplex complex;
+  VertexCells vertex_cells;
+  std::vector<double> lambda;
+  Interior interior;
+  Basins basins;
+
+  // Share of the surface whose inside was not found.
+  [[nodiscard]] double lost() const {
+    const double inner = static_cast<double>(interior.inner_cells);
+    const bool any =
+        basins.count() > 0 && inner > kSmallestInside * static_cast<double>(complex.cell_count());
+    return any ? interior.bare_share : 1.0;
+  }
+};
+
+Attempt attempt(std::span<const Vec3> points, const Ground& ground, std::size_t most,
+                const SegmentOptions& options, StageRunner& stages, const Progress* progress) {
+  Attempt a;
+  a.denoised = stages.run("denoise", 0.02, [&] {
+    if (options.interior.method == Method::kPaper) return take_as_they_are(points);
+    DenoiseOptions denoise_options = options.denoise;
+    denoise_options.threads = options.threads;
+    denoise_options.most_points = most;
+    return denoise_objects(points, ground, denoise_options, progress);
+  });
+  a.complex = stages.run("triangulate", 0.2, [&] {
+    DelaunayComplex complex = triangulate(a.denoised.points, {options.threads}, progress);
+    complex.vertex_of_point = vertices_of_input(complex, a.denoised);
+    return complex;
+  });
+  a.vertex_cells = find_vertex_cells(a.complex);
+  a.lambda = stages.run("neighbors", 0.7, [&] {
+    return mean_neighbor_distance(a.complex, a.vertex_cells, options.threads);
+  });
+  a.interior = stages.run("interior", 0.75, [&] {
+    return find_interior(a.complex, a.vertex_cells, a.lambda, options.interior, options.threads);
+  });
+  a.basins = stages.run("basins", 0.85,
+                        [&] { return find_basins(a.complex, a.interior, options.threads); });
+  return a;
+}
+
+// With as few points as show all of the inside, or those that show most of it.
+Attempt attempt_with_enough(std::span<const Vec3> points, const Ground& ground,
+                            const SegmentOptions& options, StageRunner& stages,
+                            const Progress* progress) {
+  const bool all = options.interior.method == Method::kPaper || options.denoise.rounds == 0;
+  const std::size_t limit = options.denoise.most_points;
+  std::size_t most = all ? limit : std::min(kEnoughPoints, limit);
+  Attempt best = attempt(points, ground, most, options, stages, progress);
+  if (best.lost() <= kLostSurface || most >= std::min(limit, points.size())) return best;
+  const std::size_t useful = std::min(limit, useful_points(points, options.threads));
+  while (best.lost() > kLostSurface && most < useful) {
+    most = std::min(kManyMore * most, useful);
+    Attempt next = attempt(points, ground, most, options, stages, progress);
+    if (next.lost() < best.lost()) best = std::move(next);
+  }
+  return best;
+}
+
 }  // namespace
 
 std::string version() { return MORSEL_VERSION; }
@@ -182,30 +266,15 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
   s.ground = stages.run("ground", 0.0, [&] {
     return paper ? Ground{} : find_ground(points, {options.ground.mode, options.threads});
   });
-  s.denoised = stages.run("denoise", 0.02, [&] {
-    DenoiseOptions denoise_options = options.denoise;
-    denoise_options.threads = options.threads;
-    return paper ? take_as_they_are(points)
-                 : denoise_objects(points, s.ground, denoise_options, progress);
-  });
-  s.complex = stages.run("triangulate", 0.2, [&] {
-    DelaunayComplex complex = triangulate(s.denoised.points, {options.threads}, progress);
-    complex.vertex_of_point = vertices_of_input(complex, s.denoised);
-    return complex;
-  });
-  const VertexCells vertex_cells = find_vertex_cells(s.complex);
-  const std::vector<double> lambda = stages.run("neighbors", 0.7, [&] {
-    return mean_neighbor_distance(s.complex, vertex_cells, options.threads);
-  });
-  s.interior = stages.run("interior", 0.75, [&] {
-    return find_interior(s.complex, vertex_cells, lambda, options.interior, options.threads);
-  });
-  s.basins = stages.run("basins", 0.85,
-                        [&] { return find_basins(s.complex, s.interior, options.threads); });
+  Attempt found = attempt_with_enough(points, s.ground, options, stages, progress);
+  s.denoised = std::move(found.denoised);
+  s.complex = std::move(found.complex);
+  s.interior = std::move(found.interior);
+  s.basins = std::move(found.basins);
   s.verdict = judge(s);
   if (s.verdict == Verdict::kSolid) {
     s.tree = stages.run("merge", 0.9, [&] {
-      return build_merge_tree(s.complex, vertex_cells, lambda, s.interior, s.basins,
+      return build_merge_tree(s.complex, found.vertex_cells, found.lambda, s.interior, s.basins,
                               options.interior.method, options.threads);
     });
     s.parts = stages.run("cut", 0.97, [&] { return cut(s.tree, options.cut); });

@@ -6,6 +6,7 @@
 #include <map>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <ostream>
 #include <set>
 #include <string>
@@ -164,6 +165,37 @@ TEST(SegmentTest, CutAgainIsAsCutAtFirst) {
   const Segmentation sheet = segment(shapes::Points(10));
   EXPECT_EQ(recut(sheet, options.cut).message, sheet.message);
   EXPECT_THROW((void)recut(natural, {.parts = 0, .merge_ratio = {}}), Error);
+}
+
+TEST(SegmentTest, EnoughPointsStandForALargeCloud) {
+  const Points points = shapes::dumbbell(60000);
+  SegmentOptions options;
+  const Segmentation s = segment(points, options);
+  expect_complete(points, s);
+  EXPECT_EQ(s.complex.vertices.size() + s.denoised.outlier_count / 3, 20000U);
+  EXPECT_EQ(s.parts.parts.size(), 3U);
+  const auto shuffle = shapes::permutation(points.size());
+  options.threads = 1;
+  EXPECT_EQ(shapes::permuted(s.labels, shuffle),
+            segment(shapes::permuted(points, shuffle), options).labels);
+  options.denoise.rounds = 0;
+  EXPECT_GT(segment(points, options).complex.vertices.size(), 59000U);
+  options.interior.method = Method::kPaper;
+  EXPECT_EQ(segment(points, options).complex.vertices.size(), 60000U);
+}
+
+TEST(SegmentTest, ThinWallsTakeMorePoints) {
+  // A plate too thin for 20,000 points, which lie 0.01 apart on each side.
+  constexpr double kThickness = 0.015;
+  const Points plate = shapes::changed(shapes::cube_cloud(300000), [](const Vec3& p) {
+    return Vec3{p.x, p.y, p.z < 0.5 ? 0.0 : kThickness};
+  });
+  const Segmentation s = segment(plate);
+  expect_complete(plate, s);
+  EXPECT_GT(s.complex.vertices.size(), 20000U);
+  EXPECT_NEAR(s.interior.volume, kThickness, 0.1 * kThickness);
+  std::set<std::string> stages;
+  for (const StageCost& cost : s.costs) EXPECT_TRUE(stages.insert(cost.stage).second);
 }
 
 TEST(SegmentTest, PaperMethodRuns) {

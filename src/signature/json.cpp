@@ -1,8 +1,11 @@
 // A signature as JSON, and back.
 
+#include <cstdint>
+#include <limits>
 #include <morsel/error.hpp>
 #include <morsel/signature.hpp>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace morsel {
 namespace {
@@ -12,6 +15,16 @@ using Json = nlohmann::ordered_json;
 constexpr int kJsonVersion = 1;
 
 Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+// A whole number; JSON's own conversion cuts fractions off and is undefined for what is too large.
+template <typename Integer>
+Integer integer_from_json(const Json& json, const std::string& prefix) {
+  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<Integer>::max());
+  if (json.is_number_unsigned() && json.get<std::uint64_t>() <= kMost) return json.get<Integer>();
+  throw Error(ErrorCode::kInput,
+              prefix + "not a signature: " + (json.is_number() ? json.dump() : json.type_name()) +
+                  " where a whole number from 0 to " + std::to_string(kMost) + " is expected");
+}
 
 Vec3 vector_from_json(const Json& json) {
   const auto values = json.get<std::array<double, 3>>();
@@ -30,15 +43,15 @@ Json part_json(const SignaturePart& part) {
   return json;
 }
 
-SignaturePart part_from_json(const Json& json) {
+SignaturePart part_from_json(const Json& json, const std::string& prefix) {
   SignaturePart part;
   part.weight = json.at("weight").get<double>();
   part.center = vector_from_json(json.at("representative_point"));
   part.covariance = json.at("covariance").get<std::array<double, 6>>();
   part.ball_radius = json.at("ball_radius").get<double>();
   for (const Json& neighbor : json.at("neighbors")) {
-    part.neighbors.push_back(
-        {neighbor.at("part").get<int>(), neighbor.at("neck_radius").get<double>()});
+    part.neighbors.push_back({integer_from_json<int>(neighbor.at("part"), prefix),
+                              neighbor.at("neck_radius").get<double>()});
   }
   return part;
 }
@@ -46,9 +59,7 @@ SignaturePart part_from_json(const Json& json) {
 void check_neighbors(const Signature& signature, const std::string& name) {
   for (const SignaturePart& part : signature.parts) {
     for (const PartNeighbor& neighbor : part.neighbors) {
-      if (neighbor.part >= 0 && static_cast<std::size_t>(neighbor.part) < signature.parts.size()) {
-        continue;
-      }
+      if (static_cast<std::size_t>(neighbor.part) < signature.parts.size()) continue;
       throw Error(ErrorCode::kInput, name + "neighbors names part " +
                                          std::to_string(neighbor.part) + " of " +
                                          std::to_string(signature.parts.size()));
@@ -72,15 +83,20 @@ Signature signature_from_json(const std::string& text, const std::string& name) 
   const std::string prefix = name.empty() ? std::string() : name + ": ";
   try {
     const Json json = Json::parse(text);
-    if (const int version = json.at("signature_version").get<int>(); version != kJsonVersion) {
+    const int version = integer_from_json<int>(json.at("signature_version"), prefix);
+    if (version != kJsonVersion) {
       throw Error(ErrorCode::kInput, prefix + "signature_version is " + std::to_string(version) +
                                          "; this program reads " + std::to_string(kJsonVersion));
     }
     Signature signature;
     signature.centroid = vector_from_json(json.at("centroid"));
     signature.size = json.at("size").get<double>();
-    for (const Json& part : json.at("parts")) signature.parts.push_back(part_from_json(part));
-    signature.tables = json.at("tables").get<std::vector<std::uint8_t>>();
+    for (const Json& part : json.at("parts")) {
+      signature.parts.push_back(part_from_json(part, prefix));
+    }
+    for (const Json& value : json.at("tables")) {
+      signature.tables.push_back(integer_from_json<std::uint8_t>(value, prefix));
+    }
     check_neighbors(signature, prefix);
     return decode(encode(signature), name);
   } catch (const Json::exception& error) {

@@ -65,6 +65,12 @@ TEST(SignatureTest, SaysWhatIsWrong) {
   EXPECT_NE(message([&] { (void)signature_from_json("{}", "a.json"); }).find("a.json"),
             std::string::npos);
   auto json = nlohmann::json::parse(to_json(signature_of(shape())));
+  auto broken = json;
+  broken["tables"][0] = 1e23;
+  EXPECT_NE(message([&] {
+              (void)signature_from_json(broken.dump(), "a.json");
+            }).find("a.json: not a signature: 1e+23 where a whole number from 0 to 255"),
+            std::string::npos);
   json["parts"][0]["neighbors"] = {{{"part", 99}, {"neck_radius", 1.0}}};
   EXPECT_NE(message([&] { (void)signature_from_json(json.dump()); }).find("part 99"),
             std::string::npos);

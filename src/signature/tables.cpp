@@ -329,7 +329,8 @@ std::vector<std::uint8_t> make_tables(const DelaunayComplex& complex, const Basi
       a();
       b();
     } else {
-      tbb::task_arena(2).execute([&] { tbb::parallel_invoke(a, b); });
+      const GiverScope giver;
+      tbb::task_arena(2).execute([&] { tbb::parallel_invoke(handed(a), handed(b)); });
     }
   };
   invoke([&] { solid = find_solid(complex, basins); },

@@ -1,0 +1,315 @@
+// morsel-bench scaling: points to labels, parts and signature against CGAL's Delaunay insertion
+// alone, from some thousands of points to millions: seconds, memory, growth, and what became slower
+// than it was.
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/iterator/transform_iterator.hpp>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <morsel/morsel.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "commands.hpp"
+#include "isolated.hpp"
+#include "solids/solid.hpp"
+#include "stopwatch.hpp"
+#include "summary.hpp"
+
+namespace morsel::bench {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
+
+struct Options {
+  std::vector<std::size_t> points{10000, 100000, 1000000};
+  std::vector<double> noise{0.0, 0.003};
+  std::size_t runs = 5;
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path json;
+  std::filesystem::path against;
+};
+
+// What is timed, in each run one after the other.
+enum Contender : std::size_t { kCgal, kOneThread, kAllThreads, kContenderCount };
+constexpr std::array<const char*, kContenderCount> kNames{"cgal", "one_thread", "all_threads"};
+
+struct Input {
+  std::string name;
+  std::size_t points = 0;
+  double noise = 0.0;
+  std::filesystem::path file;  // empty: the procedural shape
+};
+
+std::size_t peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+json run_cgal(const std::vector<Vec3>& points) {
+  const auto convert = [](const Vec3& p) { return Kernel::Point_3(p.x, p.y, p.z); };
+  const Stopwatch watch;
+  Delaunay delaunay;
+  delaunay.insert(boost::make_transform_iterator(points.begin(), convert),
+                  boost::make_transform_iterator(points.end(), convert));
+  // Before the triangulation is freed, which is not timed.
+  return {{"seconds", watch.seconds()}, {"bytes", peak_bytes()}};
+}
+
+json run_morsel(const std::vector<Vec3>& points, int threads) {
+  SegmentOptions options;
+  options.threads = threads;
+  const Stopwatch watch;
+  const Segmentation segmentation = segment(points, options);
+  const double parts_ready = watch.seconds();
+  const Signature signature =
+      make_signature(segmentation.complex, segmentation.basins, segmentation.parts, threads);
+  json result = {{"seconds", watch.seconds()},
+                 {"bytes", peak_bytes()},
+                 {"vertices", segmentation.complex.vertices.size()},
+                 {"parts", segmentation.parts.parts.size()}};
+  for (const StageCost& cost : segmentation.costs) result["stages"][cost.stage] = cost.seconds;
+  result["stages"]["signature"] = watch.seconds() - parts_ready;
+  CutOptions five;
+  five.parts = 5;
+  const Stopwatch again;
+  const Parts parts = cut(segmentation.tree, five);
+  result["recut"] = again.seconds();
+  return result;
+}
+
+// All that was measured on one input: of each contender, one value a run.
+struct Measured {
+  std::array<std::vector<json>, kContenderCount> runs;
+
+  [[nodiscard]] std::vector<double> of(Contender contender, const json::json_pointer& what) const {
+    std::vector<double> values;
+    for (const json& run : runs[contender]) values.push_back(run.at(what).get<double>());
+    return values;
+  }
+  [[nodiscard]] double middle(Contender contender, const std::string& what) const {
+    return median(of(contender, json::json_pointer(what)));
+  }
+  // Median of what it took in multiples of CGAL, pair by pair.
+  [[nodiscard]] double ratio(Contender contender, const std::string& what) const {
+    std::vector<double> values = of(contender, json::json_pointer(what));
+    const std::vector<double> whole = of(kCgal, json::json_pointer("/seconds"));
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] /= whole[i];
+    return median(std::move(values));
+  }
+  [[nodiscard]] double memory_ratio() const {
+    return middle(kAllThreads, "/bytes") / middle(kCgal, "/bytes");
+  }
+  // Of one thread, all but the triangulation and what comes before it.
+  [[nodiscard]] double rest() const {
+    double sum = 0.0;
+    for (const auto& stage : runs[kOneThread].front().at("stages").items()) {
+      if (stage.key() == "ground" || stage.key() == "denoise" || stage.key() == "triangulate") {
+        continue;
+      }
+      sum += ratio(kOneThread, "/stages/" + stage.key());
+    }
+    return sum;
+  }
+};
+
+std::vector<Vec3> points_of(const Input& input) {
+  if (!input.file.empty()) {
+    return read_points(input.file, {.count = input.points, .noise = input.noise, .seed = 1}).points;
+  }
+  std::vector<Vec3> points =
+      solids::sample(solids::beast(), {.count = input.points, .noise = input.noise}).points;
+  solids::bend(points);
+  return points;
+}
+
+// Each run in a process of its own, so that each has a peak of its own; it begins with another
+// contender, so that none always follows the same one.
+Measured measure(const Input& input, std::size_t runs) {
+  const std::vector<Vec3> points = points_of(input);
+  const auto contender_of = [](std::size_t job) {
+    return (job / kContenderCount + job) % kContenderCount;
+  };
+  const auto outcomes = run_isolated(runs * kContenderCount, 1, [&](std::size_t job) {
+    const std::size_t contender = contender_of(job);
+    return contender == kCgal ? run_cgal(points)
+                              : run_morsel(points, contender == kOneThread ? 1 : 0);
+  });
+  Measured measured;
+  for (std::size_t job = 0; job < outcomes.size(); ++job) {
+    if (!outcomes[job].error.empty()) throw Error(ErrorCode::kResource, outcomes[job].error);
+    measured.runs[contender_of(job)].push_back(outcomes[job].value);
+  }
+  return measured;
+}
+
+void print_row(const Input& input, const Measured& measured) {
+  fmt::print("{:>9} {:>9.0f} {:>9.3f} {:>8.2f} {:>9.2f} {:>6.2f} {:>8.0f} {:>7.2f} {:>9.2f}\n",
+             input.points, measured.middle(kAllThreads, "/vertices"),
+             measured.middle(kCgal, "/seconds"), measured.ratio(kOneThread, "/seconds"),
+             measured.ratio(kAllThreads, "/seconds"), measured.rest(),
+             1e-6 * measured.middle(kCgal, "/bytes"), measured.memory_ratio(),
+             1e3 * measured.middle(kAllThreads, "/recut"));
+}
+
+void print_stages(const Measured& measured) {
+  fmt::print("  stages in multiples of CGAL, with one thread and with all:");
+  for (const auto& stage : measured.runs[kOneThread].front().at("stages").items()) {
+    const std::string what = "/stages/" + stage.key();
+    fmt::print(" {} {:.2f} {:.2f}{}", stage.key(), measured.ratio(kOneThread, what),
+               measured.ratio(kAllThreads, what), stage.key() == "triangulate" ? "" : ",");
+  }
+  fmt::print("\n");
+}
+
+ordered_json to_json(const Input& input, const Measured& measured) {
+  ordered_json object = {{"input", input.name},
+                         {"points", input.points},
+                         {"noise", input.noise},
+                         {"one_thread_ratio", measured.ratio(kOneThread, "/seconds")},
+                         {"all_threads_ratio", measured.ratio(kAllThreads, "/seconds")},
+                         {"rest_ratio", measured.rest()},
+                         {"memory_ratio", measured.memory_ratio()}};
+  for (std::size_t i = 0; i < kContenderCount; ++i) object["runs"][kNames[i]] = measured.runs[i];
+  return object;
+}
+
+// Slope of log seconds over log points, least squares.
+double growth(const std::vector<std::pair<double, double>>& points_seconds) {
+  double x = 0.0;
+  double y = 0.0;
+  for (const auto& [n, t] : points_seconds) {
+    x += std::log(n) / static_cast<double>(points_seconds.size());
+    y += std::log(t) / static_cast<double>(points_seconds.size());
+  }
+  double xy = 0.0;
+  double xx = 0.0;
+  for (const auto& [n, t] : points_seconds) {
+    xy += (std::log(n) - x) * (std::log(t) - y);
+    xx += (std::log(n) - x) * (std::log(n) - x);
+  }
+  return xy / xx;
+}
+
+// Prints what is more than 10% above the record, and throws if anything is.
+void compare(const ordered_json& report, const std::filesystem::path& record) {
+  constexpr double kSlower = 1.1;
+  std::ifstream file(record);
+  const json old = json::parse(file, nullptr, false);
+  if (old.is_discarded() || !old.contains("inputs")) {
+    throw Error(ErrorCode::kInput,
+                record.string() + ": no record of ratios; write one with 'scaling --json'");
+  }
+  std::size_t slower = 0;
+  std::size_t compared = 0;
+  for (const auto& now : report.at("inputs")) {
+    for (const json& then : old.at("inputs")) {
+      if (then.at("input") != now.at("input") || then.at("points") != now.at("points")) continue;
+      for (const char* what :
+           {"one_thread_ratio", "all_threads_ratio", "rest_ratio", "memory_ratio"}) {
+        const double is = now.at(what).get<double>();
+        const double was = then.at(what).get<double>();
+        ++compared;
+        if (is <= kSlower * was) continue;
+        ++slower;
+        fmt::print("{}, {} points: {} is {:.2f}, was {:.2f}\n", now.at("input").get<std::string>(),
+                   now.at("points").get<std::size_t>(), what, is, was);
+      }
+    }
+  }
+  const std::string summary = fmt::format("{} of {} ratios are more than 10% above those of {}",
+                                          slower, compared, record.string());
+  if (slower > 0 || compared == 0) throw Error(ErrorCode::kInput, summary);
+  fmt::print("{}\n", summary);
+}
+
+std::vector<Input> make_inputs(const Options& options, std::size_t which) {
+  std::vector<Input> inputs;
+  for (const std::size_t count : options.points) {
+    if (which < options.files.size()) {
+      const auto& file = options.files[which];
+      inputs.push_back({file.filename().string(), count, 0.0, file});
+    } else {
+      const double noise = options.noise[which - options.files.size()];
+      inputs.push_back(
+          {fmt::format("bent beast of capsules, noise {:g}", noise), count, noise, {}});
+    }
+  }
+  return inputs;
+}
+
+void run(const Options& options) {
+  ordered_json report = {{"program", "morsel-bench scaling"},
+                         {"version", version()},
+                         {"date", utc_now()},
+                         {"threads", resolve_threads(0)},
+                         {"runs", options.runs},
+                         {"inputs", ordered_json::array()}};
+  const std::size_t shapes = options.files.empty() ? options.noise.size() : options.files.size();
+  for (std::size_t which = 0; which < shapes; ++which) {
+    const auto inputs = make_inputs(options, which);
+    fmt::print("\n{}, {} runs each, {} threads; ratios to CGAL\n", inputs.front().name,
+               options.runs, resolve_threads(0));
+    fmt::print("{:>9} {:>9} {:>9} {:>8} {:>9} {:>6} {:>8} {:>7} {:>9}\n", "points", "kept",
+               "CGAL, s", "1 thread", "threads", "rest", "CGAL, MB", "memory", "recut, ms");
+    std::vector<std::pair<double, double>> cgal;
+    std::vector<std::pair<double, double>> ours;
+    for (const Input& input : inputs) {
+      const Measured measured = measure(input, options.runs);
+      print_row(input, measured);
+      if (&input == &inputs.back()) print_stages(measured);
+      cgal.emplace_back(input.points, measured.middle(kCgal, "/seconds"));
+      ours.emplace_back(input.points, measured.middle(kAllThreads, "/seconds"));
+      report["inputs"].push_back(to_json(input, measured));
+    }
+    if (inputs.size() > 1) {
+      fmt::print("  time grows as n^{:.2f}, CGAL's as n^{:.2f}\n", growth(ours), growth(cgal));
+    }
+  }
+  if (!options.json.empty()) write_json(options.json, report);
+  if (!options.against.empty()) compare(report, options.against);
+}
+
+}  // namespace
+
+void add_scaling(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "scaling", "Times points to labels, parts and signature against CGAL's Delaunay insertion");
+  command->add_option("FILE", options->files, "Meshes to be sampled; none: a procedural shape")
+      ->check(CLI::ExistingFile);
+  command->add_option("--points", options->points, "Samples of the shape or of each mesh")
+      ->capture_default_str()
+      ->check(CLI::Range(1000, 100000000));
+  command
+      ->add_option("--noise", options->noise,
+                   "Noise of the procedural shape as a fraction of the bounding-box diagonal")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 0.1));
+  command->add_option("--runs", options->runs, "Runs of each, in turns, a process each")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--json", options->json, "Write all that was measured");
+  command
+      ->add_option("--against", options->against,
+                   "An earlier --json: say which ratios are more than 10% above it, status 1")
+      ->check(CLI::ExistingFile);
+  command->footer(
+      "Kept are the points that noise leaves to be triangulated. Rest is what one thread needs\n"
+      "apart from ground, denoising and triangulation. Memory is the peak of the whole process.");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace morsel::bench
