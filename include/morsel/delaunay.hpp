@@ -46,7 +46,7 @@ struct TriangulateOptions {
 };
 
 /// Triangulates the points (n, 3); finite coordinates, n < 2^31. Repeated points become one vertex.
-/// Throws Error(kInput) naming the index of a point that is not finite, Error(kCancelled).
+/// Throws Error(kInput) naming a point that is not finite, Error(kResource), Error(kCancelled).
 /// Cost: O(n log n) expected on points near surfaces; about 900 bytes a point at its peak.
 [[nodiscard]] DelaunayComplex triangulate(std::span<const Vec3> points,
                                           const TriangulateOptions& options = {},

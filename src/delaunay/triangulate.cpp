@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <morsel/delaunay.hpp>
+#include <string>
 #include <utility>
 
+#include "base/memory.hpp"
 #include "base/spatial_order.hpp"
 #include "base/threads.hpp"
 #include "delaunay/balls.hpp"
@@ -32,6 +34,9 @@ using Quad = std::array<std::uint32_t, 4>;
 // Below this size CGAL's locks cost more than a second thread brings.
 constexpr std::size_t kParallelThreshold = 50000;
 constexpr int kLockGridSize = 50;
+
+// A point needs so much at the peak, here and in the stages that follow.
+constexpr std::size_t kBytesPerPoint = 1500;
 
 // The slots of a cell such that its vertices ascend, the last two exchanged where that is needed to
 // keep the cell positively oriented, as CGAL's cells are.
@@ -145,6 +150,8 @@ DelaunayComplex triangulate(std::span<const Vec3> points, const TriangulateOptio
   SpatialOrder order = sort_spatially(points, threads);
   complex.vertices = std::move(order.points);
   complex.vertex_of_point = std::move(order.order_of_point);
+  expect_memory(kBytesPerPoint * complex.vertices.size(), available_memory(),
+                "triangulating " + std::to_string(complex.vertices.size()) + " points");
   if (threads > 1 && complex.vertices.size() >= kParallelThreshold) {
     triangulate_parallel(complex, threads, progress);
   } else {
