@@ -35,10 +35,11 @@ struct GiverScope {
 template <typename Task>
 class Handed {
  public:
-  explicit Handed(Task task) : task_(std::move(task)) { __tsan_release(this); }
-  Handed(const Handed& other) : task_(other.arrived().task_) { __tsan_release(this); }
+  // Where a task was, another one may be made.
+  explicit Handed(Task task) : task_((arrived(), std::move(task))) { __tsan_release(this); }
+  Handed(const Handed& other) : task_((arrived(), other.arrived().task_)) { __tsan_release(this); }
   Handed& operator=(const Handed&) = delete;
-  ~Handed() = default;
+  ~Handed() { __tsan_release(this); }
 
   template <typename... Arguments>
   void operator()(Arguments&&... arguments) const {
@@ -47,7 +48,7 @@ class Handed {
   }
 
  private:
-  [[nodiscard]] const Handed& arrived() const {
+  const Handed& arrived() const {
     __tsan_acquire(const_cast<Handed*>(this));
     return *this;
   }
