@@ -25,7 +25,7 @@ bench:  ## Run the benchmarks: ARGS="segmentation --help"
 	@cmake --build --preset release --target morsel_bench
 	@build/release/apps/morsel-bench/morsel-bench $(or $(ARGS),--help)
 
-bench-guard:  ## Say which of the small cases got slower than the record of docs/performance.md
+bench-guard:  ## Say which of the small cases got slower than apps/morsel-bench/record.json
 	@$(MAKE) --no-print-directory bench \
 	  ARGS="scaling --points 10000 30000 --against apps/morsel-bench/record.json"
 

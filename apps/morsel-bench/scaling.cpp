@@ -4,7 +4,6 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "base/threads.hpp"
 #include "commands.hpp"
 #include "isolated.hpp"
@@ -52,12 +52,6 @@ struct Input {
   std::filesystem::path file;  // empty: the procedural shape
 };
 
-std::size_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
-
 json run_cgal(const std::vector<Vec3>& points) {
   const auto convert = [](const Vec3& p) { return Kernel::Point_3(p.x, p.y, p.z); };
   const Stopwatch watch;
@@ -65,7 +59,7 @@ json run_cgal(const std::vector<Vec3>& points) {
   delaunay.insert(boost::make_transform_iterator(points.begin(), convert),
                   boost::make_transform_iterator(points.end(), convert));
   // Before the triangulation is freed, which is not timed.
-  return {{"seconds", watch.seconds()}, {"bytes", peak_bytes()}};
+  return {{"seconds", watch.seconds()}, {"bytes", peak_memory()}};
 }
 
 json run_morsel(const std::vector<Vec3>& points, int threads) {
@@ -77,7 +71,7 @@ json run_morsel(const std::vector<Vec3>& points, int threads) {
   const Signature signature =
       make_signature(segmentation.complex, segmentation.basins, segmentation.parts, threads);
   json result = {{"seconds", watch.seconds()},
-                 {"bytes", peak_bytes()},
+                 {"bytes", peak_memory()},
                  {"vertices", segmentation.complex.vertices.size()},
                  {"parts", segmentation.parts.parts.size()}};
   for (const StageCost& cost : segmentation.costs) result["stages"][cost.stage] = cost.seconds;
@@ -165,13 +159,14 @@ void print_row(const Input& input, const Measured& measured) {
 }
 
 void print_stages(const Measured& measured) {
-  fmt::print("  stages in multiples of CGAL, with one thread and with all:");
+  std::vector<std::string> stages;
   for (const auto& stage : measured.runs[kOneThread].front().at("stages").items()) {
     const std::string what = "/stages/" + stage.key();
-    fmt::print(" {} {:.2f} {:.2f}{}", stage.key(), measured.ratio(kOneThread, what),
-               measured.ratio(kAllThreads, what), stage.key() == "triangulate" ? "" : ",");
+    stages.push_back(fmt::format("{} {:.2f} {:.2f}", stage.key(), measured.ratio(kOneThread, what),
+                                 measured.ratio(kAllThreads, what)));
   }
-  fmt::print("\n");
+  fmt::print("  stages in multiples of CGAL, with one thread and with all: {}\n",
+             fmt::join(stages, ", "));
 }
 
 ordered_json to_json(const Input& input, const Measured& measured) {
@@ -304,11 +299,12 @@ void add_scaling(CLI::App& app) {
   command->add_option("--json", options->json, "Write all that was measured");
   command
       ->add_option("--against", options->against,
-                   "An earlier --json: say which ratios are more than 10% above it, status 1")
+                   "An earlier --json: say which ratios are more than 10% above it, and fail")
       ->check(CLI::ExistingFile);
   command->footer(
-      "Kept are the points that noise leaves to be triangulated. Rest is what one thread needs\n"
-      "apart from ground, denoising and triangulation. Memory is the peak of the whole process.");
+      "Kept are the points that were triangulated. Rest is what one thread needs apart from "
+      "ground,\n"
+      "denoising and triangulation. Memory is the peak of the whole process.");
   command->callback([options] { run(*options); });
 }
 

@@ -36,6 +36,12 @@ std::size_t of_limit() {
 
 }  // namespace
 
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
 std::size_t available_memory() { return std::min(of_system(), of_limit()); }
 
 void expect_memory(std::size_t needed, std::size_t available, const std::string& what) {

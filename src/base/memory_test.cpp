@@ -23,7 +23,10 @@ TEST(MemoryTest, TooLittleIsAnErrorWithBothFigures) {
   }
 }
 
-TEST(MemoryTest, OfTheSystem) { EXPECT_GT(available_memory(), 1U << 20); }
+TEST(MemoryTest, OfTheSystem) {
+  EXPECT_GT(available_memory(), 1U << 20);
+  EXPECT_GT(peak_memory(), 1U << 20);
+}
 
 }  // namespace
 }  // namespace morsel

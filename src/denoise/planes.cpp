@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 
 #include "base/threads.hpp"
 
@@ -23,16 +22,11 @@ Planes fit_planes(std::span<const Vec3> points, const Neighborhoods& neighborhoo
   const auto fit = [&](std::size_t i) {
     const auto all = neighborhoods.of(i);
     const auto neighbors = all.first(std::min(size, all.size()));
-    Vec3 sum;
-    for (const std::uint32_t j : neighbors) sum = sum + (points[j] - points[i]);
-    const auto count = static_cast<double>(neighbors.size() + 1);
-    const Vec3 mean = (1.0 / count) * sum;
-    Scatter scatter;
-    scatter.add(mean);
-    for (const std::uint32_t j : neighbors) scatter.add(points[j] - points[i] - mean);
-    const Scatter::Axis normal = scatter.shortest();
-    planes.normal[i] = normal.direction;
-    planes.residual[i] = std::sqrt(normal.sum / count);
+    const LocalPlane plane = fit_local_plane(neighbors.size() + 1, [&](std::size_t k) {
+      return k == 0 ? Vec3{} : points[neighbors[k - 1]] - points[i];
+    });
+    planes.normal[i] = plane.normal;
+    planes.residual[i] = plane.residual;
   };
   parallel_ranges(points.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) fit(i);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <morsel/vec3.hpp>
 #include <span>
@@ -32,6 +34,25 @@ class Scatter {
  private:
   Eigen::Matrix3d sum_ = Eigen::Matrix3d::Zero();  // lower triangle
 };
+
+/// A plane through points that are given by their offsets from one of them, or from any place near.
+struct LocalPlane {
+  Vec3 normal;      ///< unit; its sign means nothing
+  double residual;  ///< root mean square distance of the points from it
+};
+
+/// Fits it to offset(0) … offset(count - 1). Cost: O(count).
+template <typename Offset>
+[[nodiscard]] LocalPlane fit_local_plane(std::size_t count, const Offset& offset) {
+  Vec3 sum;
+  for (std::size_t k = 0; k < count; ++k) sum = sum + offset(k);
+  const auto size = static_cast<double>(count);
+  const Vec3 mean = (1.0 / size) * sum;
+  Scatter scatter;
+  for (std::size_t k = 0; k < count; ++k) scatter.add(offset(k) - mean);
+  const Scatter::Axis normal = scatter.shortest();
+  return {normal.direction, std::sqrt(normal.sum / size)};
+}
 
 /// The planes through each point and its nearest neighbours.
 struct Planes {

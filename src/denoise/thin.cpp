@@ -34,13 +34,9 @@ double roughness(std::span<const Vec3> points, std::size_t stride, std::size_t r
   const auto last =
       offsets.begin() + static_cast<std::ptrdiff_t>(std::min(kNeighbors, offsets.size() - 1));
   std::ranges::nth_element(offsets, last, {}, [](const Vec3& d) { return squared_norm(d); });
-  const std::span<const Vec3> nearest(offsets.begin(), last + 1);
-  const auto size = static_cast<double>(nearest.size());
-  Vec3 mean;
-  for (const Vec3& d : nearest) mean = mean + (1.0 / size) * d;
-  Scatter scatter;
-  for (const Vec3& d : nearest) scatter.add(d - mean);
-  const double rough = std::sqrt(scatter.shortest().sum / size) / norm(*last);
+  const auto count_near = static_cast<std::size_t>(last - offsets.begin()) + 1;
+  const LocalPlane plane = fit_local_plane(count_near, [&](std::size_t k) { return offsets[k]; });
+  const double rough = plane.residual / norm(*last);
   return std::isfinite(rough) ? rough : 0.0;  // squares may overflow or vanish
 }
 

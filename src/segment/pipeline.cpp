@@ -1,23 +1,17 @@
 // The stages in a row: plain values go in, plain values come out.
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <morsel/morsel.hpp>
 #include <utility>
 
+#include "base/memory.hpp"
 #include "denoise/thin.hpp"
 
 namespace morsel {
 namespace {
-
-std::size_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 // Times the stages and tells the caller about them.
 class StageRunner {
@@ -33,7 +27,7 @@ class StageRunner {
     const auto began = std::chrono::steady_clock::now();
     auto result = work();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began;
-    add({stage, taken.count(), peak_bytes()});
+    add({stage, taken.count(), peak_memory()});
     return result;
   }
 
@@ -96,6 +90,11 @@ std::vector<std::uint32_t> vertices_of_input(const DelaunayComplex& complex,
 // Below this share of the inner cells' number an inside is no solid but chance holes in a cloud.
 constexpr double kSmallestInside = 0.02;
 
+bool has_inside(const DelaunayComplex& complex, const Interior& interior, const Basins& basins) {
+  const auto cells = static_cast<double>(complex.cell_count());
+  return basins.count() > 0 && static_cast<double>(interior.inner_cells) > kSmallestInside * cells;
+}
+
 // A sheet bounds no solid: more of its surface than this has no inside behind it, or more of what
 // it bounds is open. Of a half sphere's inside a third is.
 constexpr double kBareSheet = 1.0 / 3.0;
@@ -111,10 +110,8 @@ constexpr std::size_t kManyObjects = 5;
 Verdict judge(const Segmentation& s) {
   if (s.complex.vertices.size() < 4) return Verdict::kTooFewPoints;
   if (s.complex.dimension < 3) return Verdict::kFlat;
-  const auto cells = static_cast<double>(s.complex.cell_count());
-  const bool inside = static_cast<double>(s.interior.inner_cells) > kSmallestInside * cells;
-  return inside && !is_sheet(s.interior) && s.basins.count() > 0 ? Verdict::kSolid
-                                                                 : Verdict::kNotSolid;
+  const bool inside = has_inside(s.complex, s.interior, s.basins);
+  return inside && !is_sheet(s.interior) ? Verdict::kSolid : Verdict::kNotSolid;
 }
 
 std::string describe_solid(const Segmentation& s) {
@@ -195,10 +192,7 @@ struct Attempt {
 
   // Share of the surface whose inside was not found.
   [[nodiscard]] double lost() const {
-    const double inner = static_cast<double>(interior.inner_cells);
-    const bool any =
-        basins.count() > 0 && inner > kSmallestInside * static_cast<double>(complex.cell_count());
-    return any ? interior.bare_share : 1.0;
+    return has_inside(complex, interior, basins) ? interior.bare_share : 1.0;
   }
 };
 
