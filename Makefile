@@ -27,7 +27,7 @@ bench:  ## Run the benchmarks: ARGS="segmentation --help"
 
 bench-guard:  ## Say which of the small cases got slower than apps/morsel-bench/record.json
 	@$(MAKE) --no-print-directory bench \
-	  ARGS="scaling --points 10000 30000 --against apps/morsel-bench/record.json"
+	  ARGS="scaling --points 10000 30000 --files 0 --against apps/morsel-bench/record.json"
 
 reproduce:  ## Measure all that the paper shows: out/reproduction/index.html; ARGS="--psb DIR"
 	@scripts/reproduce.sh

@@ -72,5 +72,22 @@ TEST_F(DatasetTest, ReadsLabels) {
   EXPECT_THROW(static_cast<void>(read_face_labels(folder_ / "missing.seg", 3)), Error);
 }
 
+TEST_F(DatasetTest, ReadsAllPeople) {
+  write("off/9.off", "");
+  const auto people = [&](std::size_t faces) {
+    return read_people(list_models(folder_, {}).front(), faces);
+  };
+  EXPECT_THROW(static_cast<void>(people(2)), Error) << "there is nobody";
+  write("seg/9/9_1.seg", "0\n4\n");
+  write("seg/9/9_0.seg", "7\n7\n");
+  EXPECT_EQ(people(2), (std::vector<std::vector<int>>{{7, 7}, {0, 4}}));
+  try {
+    static_cast<void>(people(3));
+    FAIL() << "two labels for three faces";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("9_0.seg"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace morsel::bench

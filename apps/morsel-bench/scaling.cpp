@@ -1,6 +1,6 @@
 // morsel-bench scaling: points to labels, parts and signature against CGAL's Delaunay insertion
-// alone, from some thousands of points to millions: seconds, memory, growth, and what became slower
-// than it was.
+// alone, from some thousands of points to millions: seconds, memory, growth, how soon it stops when
+// asked to, many files at once, and what became slower than it was.
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <fmt/format.h>
@@ -8,17 +8,20 @@
 #include <algorithm>
 #include <array>
 #include <boost/iterator/transform_iterator.hpp>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <memory>
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/memory.hpp"
 #include "base/threads.hpp"
 #include "commands.hpp"
+#include "indexing.hpp"
 #include "isolated.hpp"
 #include "solids/solid.hpp"
 #include "stopwatch.hpp"
@@ -36,6 +39,7 @@ struct Options {
   std::vector<std::size_t> points{10000, 100000, 1000000};
   std::vector<double> noise{0.0, 0.003};
   std::size_t runs = 5;
+  std::size_t indexed = 200;
   std::vector<std::filesystem::path> files;
   std::filesystem::path json;
   std::filesystem::path against;
@@ -52,12 +56,16 @@ struct Input {
   std::filesystem::path file;  // empty: the procedural shape
 };
 
-json run_cgal(const std::vector<Vec3>& points) {
+void insert_all(Delaunay& delaunay, const std::vector<Vec3>& points) {
   const auto convert = [](const Vec3& p) { return Kernel::Point_3(p.x, p.y, p.z); };
-  const Stopwatch watch;
-  Delaunay delaunay;
   delaunay.insert(boost::make_transform_iterator(points.begin(), convert),
                   boost::make_transform_iterator(points.end(), convert));
+}
+
+json run_cgal(const std::vector<Vec3>& points) {
+  const Stopwatch watch;
+  Delaunay delaunay;
+  insert_all(delaunay, points);
   // Before the triangulation is freed, which is not timed.
   return {{"seconds", watch.seconds()}, {"bytes", peak_memory()}};
 }
@@ -84,9 +92,40 @@ json run_morsel(const std::vector<Vec3>& points, int threads) {
   return result;
 }
 
+// Seconds from being asked to stop to having stopped, asked at moments spread evenly over the work.
+json run_cancelled(const std::vector<Vec3>& points) {
+  constexpr int kMoments = 20;
+  using Clock = std::chrono::steady_clock;
+  const Stopwatch watch;
+  (void)segment(points);
+  const std::chrono::duration<double> whole(watch.seconds());
+  json answers = json::array();
+  for (int i = 0; i < kMoments; ++i) {
+    Progress progress;
+    Clock::time_point asked;
+    Clock::time_point stopped = Clock::time_point::min();
+    {
+      const std::jthread other([&, begin = Clock::now()] {
+        std::this_thread::sleep_until(begin + (i + 0.5) / kMoments * whole);
+        asked = Clock::now();
+        progress.cancel();
+      });
+      try {
+        (void)segment(points, {}, &progress);
+      } catch (const Error&) {
+        stopped = Clock::now();
+      }
+    }
+    if (stopped < asked) continue;  // it was done before
+    answers.push_back(std::chrono::duration<double>(stopped - asked).count());
+  }
+  return answers;
+}
+
 // All that was measured on one input: of each contender, one value a run.
 struct Measured {
   std::array<std::vector<json>, kContenderCount> runs;
+  std::vector<double> answers;  // to being asked to stop, in seconds
 
   [[nodiscard]] std::vector<double> of(Contender contender, const json::json_pointer& what) const {
     std::vector<double> values;
@@ -105,6 +144,9 @@ struct Measured {
   }
   [[nodiscard]] double memory_ratio() const {
     return middle(kAllThreads, "/bytes") / middle(kCgal, "/bytes");
+  }
+  [[nodiscard]] double slowest_answer() const {
+    return answers.empty() ? 0.0 : *std::ranges::max_element(answers);
   }
   // Of one thread, all but the triangulation and what comes before it.
   [[nodiscard]] double rest() const {
@@ -142,6 +184,10 @@ Measured measure(const Input& input, std::size_t runs) {
                               : run_morsel(points, contender == kOneThread ? 1 : 0);
   });
   Measured measured;
+  const auto stopped =
+      run_isolated(1, 1, [&](std::size_t /*job*/) { return run_cancelled(points); });
+  if (!stopped[0].error.empty()) throw Error(ErrorCode::kResource, stopped[0].error);
+  measured.answers = stopped[0].value.get<std::vector<double>>();
   for (std::size_t job = 0; job < outcomes.size(); ++job) {
     if (!outcomes[job].error.empty()) throw Error(ErrorCode::kResource, outcomes[job].error);
     measured.runs[contender_of(job)].push_back(outcomes[job].value);
@@ -150,12 +196,12 @@ Measured measure(const Input& input, std::size_t runs) {
 }
 
 void print_row(const Input& input, const Measured& measured) {
-  fmt::print("{:>9} {:>9.0f} {:>9.3f} {:>8.2f} {:>9.2f} {:>6.2f} {:>8.0f} {:>7.2f} {:>9.2f}\n",
-             input.points, measured.middle(kAllThreads, "/vertices"),
-             measured.middle(kCgal, "/seconds"), measured.ratio(kOneThread, "/seconds"),
-             measured.ratio(kAllThreads, "/seconds"), measured.rest(),
-             1e-6 * measured.middle(kCgal, "/bytes"), measured.memory_ratio(),
-             1e3 * measured.middle(kAllThreads, "/recut"));
+  fmt::print(
+      "{:>9} {:>9.0f} {:>9.3f} {:>8.2f} {:>9.2f} {:>6.2f} {:>8.0f} {:>7.2f} {:>9.2f} {:>8.0f}\n",
+      input.points, measured.middle(kAllThreads, "/vertices"), measured.middle(kCgal, "/seconds"),
+      measured.ratio(kOneThread, "/seconds"), measured.ratio(kAllThreads, "/seconds"),
+      measured.rest(), 1e-6 * measured.middle(kCgal, "/bytes"), measured.memory_ratio(),
+      1e3 * measured.middle(kAllThreads, "/recut"), 1e3 * measured.slowest_answer());
 }
 
 void print_stages(const Measured& measured) {
@@ -176,7 +222,8 @@ ordered_json to_json(const Input& input, const Measured& measured) {
                          {"one_thread_ratio", measured.ratio(kOneThread, "/seconds")},
                          {"all_threads_ratio", measured.ratio(kAllThreads, "/seconds")},
                          {"rest_ratio", measured.rest()},
-                         {"memory_ratio", measured.memory_ratio()}};
+                         {"memory_ratio", measured.memory_ratio()},
+                         {"seconds_to_stop", measured.answers}};
   for (std::size_t i = 0; i < kContenderCount; ++i) object["runs"][kNames[i]] = measured.runs[i];
   return object;
 }
@@ -257,8 +304,9 @@ void run(const Options& options) {
     const auto inputs = make_inputs(options, which);
     fmt::print("\n{}, {} runs each, {} threads; ratios to CGAL\n", inputs.front().name,
                options.runs, resolve_threads(0));
-    fmt::print("{:>9} {:>9} {:>9} {:>8} {:>9} {:>6} {:>8} {:>7} {:>9}\n", "points", "kept",
-               "CGAL, s", "1 thread", "threads", "rest", "CGAL, MB", "memory", "recut, ms");
+    fmt::print("{:>9} {:>9} {:>9} {:>8} {:>9} {:>6} {:>8} {:>7} {:>9} {:>8}\n", "points", "kept",
+               "CGAL, s", "1 thread", "threads", "rest", "CGAL, MB", "memory", "recut, ms",
+               "stop, ms");
     std::vector<std::pair<double, double>> cgal;
     std::vector<std::pair<double, double>> ours;
     for (const Input& input : inputs) {
@@ -272,6 +320,14 @@ void run(const Options& options) {
     if (inputs.size() > 1) {
       fmt::print("  time grows as n^{:.2f}, CGAL's as n^{:.2f}\n", growth(ours), growth(cgal));
     }
+  }
+  if (options.indexed > 0) {
+    report["indexing"] =
+        measure_indexing(options.indexed, options.runs, [](const std::vector<Vec3>& points) {
+          Delaunay delaunay;
+          insert_all(delaunay, points);
+        });
+    print_indexing(report["indexing"]);
   }
   if (!options.json.empty()) write_json(options.json, report);
   if (!options.against.empty()) compare(report, options.against);
@@ -296,6 +352,11 @@ void add_scaling(CLI::App& app) {
   command->add_option("--runs", options->runs, "Runs of each, in turns, a process each")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--files", options->indexed,
+                   "Files of 20,000 points that are indexed, a share of them a run; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100000));
   command->add_option("--json", options->json, "Write all that was measured");
   command
       ->add_option("--against", options->against,
@@ -304,7 +365,8 @@ void add_scaling(CLI::App& app) {
   command->footer(
       "Kept are the points that were triangulated. Rest is what one thread needs apart from "
       "ground,\n"
-      "denoising and triangulation. Memory is the peak of the whole process.");
+      "denoising and triangulation. Memory is the peak of the whole process. Stop is the longest\n"
+      "that it went on after it was asked to stop, at 20 moments.");
   command->callback([options] { run(*options); });
 }
 

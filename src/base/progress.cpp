@@ -1,7 +1,11 @@
 #include <morsel/error.hpp>
 #include <morsel/progress.hpp>
 
+#include "base/cancel.hpp"
+
 namespace morsel {
+
+thread_local const Progress* CancelScope::current_ = nullptr;
 
 void Progress::check() const {
   if (cancelled()) throw Error(ErrorCode::kCancelled, "cancelled");

@@ -1,4 +1,5 @@
-// Runs a stage with a given number of threads. All threads of the stages are started here.
+// Runs a stage with a given number of threads. All threads of the stages are started here, and stop
+// early when the caller's CancelScope says so.
 #pragma once
 
 #ifdef __SANITIZE_THREAD__
@@ -15,6 +16,8 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+
+#include "base/cancel.hpp"
 
 namespace morsel {
 
@@ -76,12 +79,15 @@ void parallel_ranges(std::size_t count, int threads, const Body& body) {
   constexpr std::size_t kGrain = 2048;
   threads = resolve_threads(threads);
   if (threads == 1 || count <= kGrain) {
-    if (count > 0) body(std::size_t{0}, count);
+    in_pieces(0, count, body);
     return;
   }
   const tbb::blocked_range<std::size_t> all(0, count, kGrain);
-  const auto task = handed(
-      [&body](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+  const auto task =
+      handed([&body, whose = CancelScope::current()](const tbb::blocked_range<std::size_t>& range) {
+        const CancelScope scope(whose);
+        in_pieces(range.begin(), range.end(), body);
+      });
   const GiverScope giver;
   tbb::task_arena arena(threads);
   arena.execute([&] { tbb::parallel_for(all, task); });
@@ -91,11 +97,16 @@ void parallel_ranges(std::size_t count, int threads, const Body& body) {
 template <typename Body>
 void parallel_rows(std::size_t count, int threads, const Body& body) {
   threads = resolve_threads(threads);
+  const auto turn = [&body, whose = CancelScope::current()](std::size_t i) {
+    const CancelScope scope(whose);
+    check_cancelled();
+    body(i);
+  };
   if (threads == 1) {
-    for (std::size_t i = 0; i < count; ++i) body(i);
+    for (std::size_t i = 0; i < count; ++i) turn(i);
     return;
   }
-  const auto task = handed([&body](std::size_t i) { body(i); });
+  const auto task = handed(turn);
   const GiverScope giver;
   tbb::task_arena arena(threads);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, task); });
@@ -119,15 +130,20 @@ std::vector<Value> parallel_collect(std::size_t count, int threads, const Collec
 }
 
 /// Sorts by operator<, which must tell any two different values apart, for one result in every run.
+/// Values hold no memory of their own: they are left in any order when the sorting is cancelled.
 template <typename Value>
 void parallel_sort(std::vector<Value>& values, int threads) {
   threads = resolve_threads(threads);
+  const auto less = [whose = CancelScope::current()](const Value& a, const Value& b) {
+    if (whose != nullptr) whose->check();
+    return a < b;
+  };
   if (threads == 1) {
-    std::sort(values.begin(), values.end());
+    std::sort(values.begin(), values.end(), less);
     return;
   }
   tbb::task_arena arena(threads);
-  arena.execute([&] { tbb::parallel_sort(values.begin(), values.end()); });
+  arena.execute([&] { tbb::parallel_sort(values.begin(), values.end(), less); });
 }
 
 /// Work for at most `threads` − 1 threads beside the caller's, who may go on meanwhile and does

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstddef>
+#include <morsel/error.hpp>
 #include <vector>
 
 #include "base/random.hpp"
@@ -45,6 +47,84 @@ TEST(ThreadsTest, BackgroundTasksAreDoneAfterTheWait) {
     tasks.wait();
     EXPECT_EQ(std::ranges::count(done, 1), 1000);
   }
+}
+
+// What each kind of loop has done once it is asked to stop by its own hundredth value.
+template <typename Loop>
+void expect_stops(const Loop& loop) {
+  for (const int threads : {1, 2, 5}) {
+    Progress progress;
+    const CancelScope scope(&progress);
+    std::atomic<std::size_t> done{0};
+    const auto count = [&] {
+      if (++done == 100) progress.cancel();
+    };
+    try {
+      loop(threads, count);
+      FAIL() << "went on to the end";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kCancelled);
+    }
+    EXPECT_LT(done, 200000U) << "of a million";
+  }
+}
+
+constexpr std::size_t kMillion = 1000000;
+
+TEST(ThreadsTest, LoopsStopWhenTheyAreAskedTo) {
+  const auto each = [](const auto& count) {
+    return [&count](std::size_t begin, std::size_t end) {
+      for (; begin < end; ++begin) count();
+    };
+  };
+  expect_stops(
+      [&](int threads, const auto& count) { parallel_ranges(kMillion, threads, each(count)); });
+  expect_stops([&](int threads, const auto& count) {
+    parallel_rows(kMillion, threads, [&](std::size_t /*row*/) { count(); });
+  });
+  expect_stops([&](int threads, const auto& count) {
+    (void)parallel_collect<int>(kMillion, threads,
+                                [&](std::size_t begin, std::size_t end, std::vector<int>& /*all*/) {
+                                  each(count)(begin, end);
+                                });
+  });
+  expect_stops([&](int /*threads*/, const auto& count) {
+    in_turn(kMillion, [&](std::size_t /*i*/) { count(); });
+  });
+}
+
+TEST(ThreadsTest, SortingStopsWhenItIsAskedTo) {
+  static std::atomic<std::size_t> comparisons;
+  static Progress* asked;
+  struct Value {
+    double value = 0.0;
+    bool operator<(const Value& other) const {
+      if (++comparisons == 100) asked->cancel();
+      return value < other.value;
+    }
+  };
+  Random random(4);
+  std::vector<Value> values(kMillion);
+  for (Value& one : values) one.value = random.uniform();
+  for (const int threads : {1, 2}) {
+    Progress progress;
+    asked = &progress;
+    comparisons = 0;
+    const CancelScope scope(&progress);
+    EXPECT_THROW(parallel_sort(values, threads), Error);
+    EXPECT_LT(comparisons, 1000U) << "of some twenty million";
+  }
+}
+
+TEST(ThreadsTest, NothingStopsOutsideOfItsScope) {
+  Progress progress;
+  progress.cancel();
+  {
+    const CancelScope scope(&progress);
+    const CancelScope same(nullptr);
+    EXPECT_THROW(check_cancelled(), Error);
+  }
+  EXPECT_NO_THROW(check_cancelled());
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <morsel/progress.hpp>
 #include <morsel/vec3.hpp>
 #include <vector>
 
@@ -44,9 +43,7 @@ class Insertion {
   Insertion(Delaunay& delaunay, const std::vector<Vec3>& points, Locks* locks)
       : delaunay_(delaunay), points_(points), locks_(locks), vertices_(points.size()) {}
 
-  /// Throws Error(kCancelled) within some thousand points of being asked to.
-  void run(const Progress* progress) {
-    progress_ = progress;
+  void run() {
     const auto rounds = insertion_rounds(static_cast<std::uint32_t>(points_.size()));
     for (const auto& round : rounds) {
       // The first round makes the triangulation large enough for threads to keep out of each
@@ -62,10 +59,6 @@ class Insertion {
  private:
   static constexpr std::size_t kChunk = 1024;
 
-  void check() const {
-    if (progress_ != nullptr) progress_->check();
-  }
-
   [[nodiscard]] Point point(std::uint32_t i) const {
     return {points_[i].x, points_[i].y, points_[i].z};
   }
@@ -80,7 +73,7 @@ class Insertion {
     delaunay_.set_lock_data_structure(nullptr);
     Vertex hint;
     for (std::size_t r = 0; r < round.size(); ++r) {
-      if (r % kChunk == 0) check();
+      if (r % kChunk == 0) check_cancelled();
       const std::uint32_t i = round[r];
       hint = delaunay_.insert(point(i), hint);
       hint->info() = i;
@@ -94,8 +87,9 @@ class Insertion {
     for (std::size_t begin = 0; begin < round.size(); begin += kChunk) {
       hints.push_back(vertex_before(round[begin]));
     }
-    const auto insert_chunk = handed([&](std::size_t chunk) {
-      check();
+    const auto insert_chunk = handed([&, whose = CancelScope::current()](std::size_t chunk) {
+      const CancelScope scope(whose);
+      check_cancelled();
       Vertex hint = hints[chunk];
       const std::size_t end = std::min((chunk + 1) * kChunk, round.size());
       for (std::size_t r = chunk * kChunk; r < end; ++r) hint = insert_locked(round[r], hint);
@@ -132,7 +126,6 @@ class Insertion {
   const std::vector<Vec3>& points_;
   Locks* locks_;
   std::vector<Vertex> vertices_;  // of the points that are in
-  const Progress* progress_ = nullptr;
 };
 
 }  // namespace morsel

@@ -20,50 +20,36 @@ struct Nearest {
   };
   std::array<Entry, 3> entries;
 
-  // Each vertex at most once.
+  // Whoever is held already, or was sent away, is not taken again.
   void offer(const Entry& entry) {
-    if (!(entry < entries[2])) return;
+    if (!(entry < entries[2]) || entry.vertex == entries[0].vertex ||
+        entry.vertex == entries[1].vertex) {
+      return;
+    }
     entries[2] = entry;
     if (entries[2] < entries[1]) std::swap(entries[2], entries[1]);
     if (entries[1] < entries[0]) std::swap(entries[1], entries[0]);
   }
 };
 
-// Searches around one vertex after another.
-class NearestSearch {
- public:
-  NearestSearch(const DelaunayComplex& complex, const VertexCells& vertex_cells)
-      : complex_(complex),
-        vertex_cells_(vertex_cells),
-        seen_from_(complex.vertices.size(), kNoVertex) {}
-
-  Nearest search(std::uint32_t p) {
-    Nearest nearest;
-    seen_from_[p] = p;
-    offer_star(p, p, nearest);
-    // entries[0] is final after the own star, entries[1] after the star of entries[0], …
-    for (std::size_t k = 0; k < 2; ++k) {
-      const std::uint32_t vertex = nearest.entries[k].vertex;
-      if (vertex != kNoVertex) offer_star(p, vertex, nearest);
-    }
-    return nearest;
-  }
-
- private:
-  void offer_star(std::uint32_t of, std::uint32_t center, Nearest& nearest) {
-    for (const std::uint32_t c : vertex_cells_.of(center)) {
-      for (const std::uint32_t v : complex_.cells[c]) {
-        if (seen_from_[v] == of) continue;
-        seen_from_[v] = of;
-        nearest.offer({squared_distance(complex_.vertices[of], complex_.vertices[v]), v});
+Nearest find_nearest_three(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                           std::uint32_t p) {
+  Nearest nearest;
+  const auto offer_star = [&](std::uint32_t center) {
+    for (const std::uint32_t c : vertex_cells.of(center)) {
+      for (const std::uint32_t v : complex.cells[c]) {
+        if (v != p) nearest.offer({squared_distance(complex.vertices[p], complex.vertices[v]), v});
       }
     }
+  };
+  offer_star(p);
+  // entries[0] is final after the own star, entries[1] after the star of entries[0], …
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::uint32_t vertex = nearest.entries[k].vertex;
+    if (vertex != kNoVertex) offer_star(vertex);
   }
-
-  const DelaunayComplex& complex_;
-  const VertexCells& vertex_cells_;
-  std::vector<std::uint32_t> seen_from_;  // the last vertex for which each one was looked at
-};
+  return nearest;
+}
 
 }  // namespace
 
@@ -83,19 +69,19 @@ Vec3 cell_centroid(const DelaunayComplex& complex, std::size_t cell) {
 VertexCells find_vertex_cells(const DelaunayComplex& complex) {
   VertexCells result;
   result.offsets.assign(complex.vertices.size() + 2, 0);
-  for (const auto& cell : complex.cells) {
-    for (const std::uint32_t v : cell) ++result.offsets[v + 2];
-  }
+  in_turn(complex.cells.size(), [&](std::size_t c) {
+    for (const std::uint32_t v : complex.cells[c]) ++result.offsets[v + 2];
+  });
   for (std::size_t v = 2; v < result.offsets.size(); ++v) {
     result.offsets[v] += result.offsets[v - 1];
   }
   // offsets[v + 1] now is the begin of v and becomes its end while the cells are filled in.
   result.cells.resize(4 * complex.cells.size());
-  for (std::size_t c = 0; c < complex.cells.size(); ++c) {
+  in_turn(complex.cells.size(), [&](std::size_t c) {
     for (const std::uint32_t v : complex.cells[c]) {
       result.cells[result.offsets[v + 1]++] = static_cast<std::uint32_t>(c);
     }
-  }
+  });
   result.offsets.pop_back();
   return result;
 }
@@ -104,11 +90,12 @@ std::vector<double> mean_neighbor_distance(const DelaunayComplex& complex,
                                            const VertexCells& vertex_cells, int threads) {
   std::vector<double> lambda(complex.vertices.size(), 0.0);
   parallel_ranges(lambda.size(), threads, [&](std::size_t begin, std::size_t end) {
-    NearestSearch around(complex, vertex_cells);
     for (std::size_t i = begin; i < end; ++i) {
       double sum = 0.0;
       int count = 0;
-      for (const auto& entry : around.search(static_cast<std::uint32_t>(i)).entries) {
+      const Nearest nearest =
+          find_nearest_three(complex, vertex_cells, static_cast<std::uint32_t>(i));
+      for (const auto& entry : nearest.entries) {
         if (entry.vertex == kNoVertex) break;
         sum += std::sqrt(entry.squared);
         ++count;

@@ -63,11 +63,12 @@ Quad take(const Quad& values, const std::array<std::uint8_t, 4>& slots) {
 std::vector<std::uint32_t> canonical_places(const std::vector<Quad>& vertices,
                                             std::size_t vertex_count, int threads) {
   std::vector<std::uint32_t> begins(vertex_count + 1, 0);
-  for (const Quad& cell : vertices) ++begins[cell[0] + 1];
+  in_turn(vertices.size(), [&](std::size_t c) { ++begins[vertices[c][0] + 1]; });
   for (std::size_t v = 0; v < vertex_count; ++v) begins[v + 1] += begins[v];
   std::vector<std::uint32_t> order(vertices.size());
   std::vector<std::uint32_t> ends(begins.begin(), begins.end() - 1);
-  for (std::uint32_t c = 0; c < vertices.size(); ++c) order[ends[vertices[c][0]]++] = c;
+  in_turn(vertices.size(),
+          [&](std::size_t c) { order[ends[vertices[c][0]]++] = static_cast<std::uint32_t>(c); });
   std::vector<std::uint32_t> places(vertices.size());
   parallel_ranges(vertex_count, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<std::pair<Quad, std::uint32_t>> group;
@@ -90,7 +91,9 @@ void copy_cells(const Delaunay& delaunay, DelaunayComplex& complex, int threads)
   std::vector<typename Delaunay::Cell_handle> cells;
   cells.reserve(delaunay.tds().cells().size());
   const auto infinite = delaunay.infinite_vertex();
+  std::size_t visited = 0;
   for (auto it = delaunay.all_cells_begin(); it != delaunay.all_cells_end(); ++it) {
+    if (visited++ % 65536 == 0) check_cancelled();
     const bool finite = !it->has_vertex(infinite);
     it->info() = finite ? static_cast<std::uint32_t>(cells.size()) : kNoCell;
     if (finite) cells.push_back(it);
@@ -123,21 +126,22 @@ void copy_cells(const Delaunay& delaunay, DelaunayComplex& complex, int threads)
 
 template <typename Delaunay>
 void insert_and_copy(Delaunay& delaunay, typename Delaunay::Lock_data_structure* locks,
-                     DelaunayComplex& complex, int threads, const Progress* progress) {
-  Insertion<Delaunay>(delaunay, complex.vertices, locks).run(progress);
+                     DelaunayComplex& complex, int threads) {
+  Insertion<Delaunay>(delaunay, complex.vertices, locks).run();
   complex.dimension = delaunay.dimension();
   if (complex.dimension == 3) copy_cells(delaunay, complex, threads);
 }
 
-void triangulate_parallel(DelaunayComplex& complex, int threads, const Progress* progress) {
+void triangulate_parallel(DelaunayComplex& complex, int threads) {
   tbb::task_arena arena(threads);
-  arena.execute([&] {
+  arena.execute([&, whose = CancelScope::current()] {
+    const CancelScope scope(whose);
     CGAL::Bbox_3 box;
     for (const Vec3& v : complex.vertices) box += CGAL::Bbox_3(v.x, v.y, v.z, v.x, v.y, v.z);
     using Delaunay = Triangulation<CGAL::Parallel_tag>;
     Delaunay::Lock_data_structure locks(box, kLockGridSize);
     Delaunay delaunay;
-    insert_and_copy(delaunay, &locks, complex, threads, progress);
+    insert_and_copy(delaunay, &locks, complex, threads);
   });
 }
 
@@ -145,6 +149,7 @@ void triangulate_parallel(DelaunayComplex& complex, int threads, const Progress*
 
 DelaunayComplex triangulate(std::span<const Vec3> points, const TriangulateOptions& options,
                             const Progress* progress) {
+  const CancelScope scope(progress);
   DelaunayComplex complex;
   const int threads = resolve_threads(options.threads);
   SpatialOrder order = sort_spatially(points, threads);
@@ -153,10 +158,10 @@ DelaunayComplex triangulate(std::span<const Vec3> points, const TriangulateOptio
   expect_memory(kBytesPerPoint * complex.vertices.size(), available_memory(),
                 "triangulating " + std::to_string(complex.vertices.size()) + " points");
   if (threads > 1 && complex.vertices.size() >= kParallelThreshold) {
-    triangulate_parallel(complex, threads, progress);
+    triangulate_parallel(complex, threads);
   } else {
     Triangulation<CGAL::Sequential_tag> delaunay;
-    insert_and_copy(delaunay, nullptr, complex, threads, progress);
+    insert_and_copy(delaunay, nullptr, complex, threads);
   }
   compute_balls(complex, threads);
   return complex;

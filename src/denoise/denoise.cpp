@@ -122,18 +122,18 @@ void DenoiseOptions::check() const {
 Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
                  const Progress* progress) {
   options.check();
+  const CancelScope scope(progress);
   Denoised result;
   Cleaned cleaned = drop_outliers(points, options.most_points, options.threads);
   result.points = std::move(cleaned.points);
   result.stand_in = std::move(cleaned.stand_in);
   result.outlier_count = cleaned.outlier_count;
   if (result.points.size() <= kNeighbors) return result;
-  if (progress != nullptr) progress->check();
   result.noise = cleaned.noise;
   result.spacing = cleaned.spacing;
   const bool noisy = result.noise > kNoisyShare * result.spacing;
   result.rounds = options.rounds.value_or(noisy ? kRounds : 0);
-  smooth(result.points, result.rounds, options.threads, progress);
+  smooth(result.points, result.rounds, options.threads);
   return result;
 }
 

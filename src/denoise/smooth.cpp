@@ -101,11 +101,10 @@ std::vector<Vec3> move_points(const Field& field, const std::vector<Vec3>& norma
 
 }  // namespace
 
-void smooth(std::vector<Vec3>& points, int rounds, int threads, const Progress* progress) {
+void smooth(std::vector<Vec3>& points, int rounds, int threads) {
   Neighborhoods neighborhoods;
   double height_width = 0.0;
   for (int round = 0; round < rounds; ++round) {
-    if (progress != nullptr) progress->check();
     // Neighbours are found anew once: the first round moves the points most.
     if (round < 2) neighborhoods = find_neighborhoods(points, kNeighbors, threads);
     Planes planes = fit_planes(points, neighborhoods, kPlaneNeighbors, threads);

@@ -1,7 +1,6 @@
 // Takes noise off a cloud without pulling its curves in or its thin walls together.
 #pragma once
 
-#include <morsel/progress.hpp>
 #include <morsel/vec3.hpp>
 #include <vector>
 
@@ -16,6 +15,6 @@ namespace morsel {
 /// filtered first as in Y. Zheng et al., "Bilateral Normal Filtering for Mesh Denoising", TVCG
 /// 2011. Differs: no mesh and no orientation; the symmetric height is ours. Throws
 /// Error(kCancelled). Cost: O(n log n).
-void smooth(std::vector<Vec3>& points, int rounds, int threads, const Progress* progress);
+void smooth(std::vector<Vec3>& points, int rounds, int threads);
 
 }  // namespace morsel

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <morsel/error.hpp>
 
+#include "base/cancel.hpp"
 #include "base/test_shapes.hpp"
 #include "denoise/neighborhoods.hpp"
 #include "denoise/planes.hpp"
@@ -15,7 +16,7 @@ namespace {
 using shapes::Points;
 
 Points smoothed(Points points, int rounds = 3) {
-  smooth(points, rounds, 0, nullptr);
+  smooth(points, rounds, 0);
   return points;
 }
 
@@ -73,7 +74,8 @@ TEST(SmoothTest, CanBeCancelled) {
   Points points = shapes::noisy(shapes::sphere(500), 0.02);
   Progress progress;
   progress.cancel();
-  EXPECT_THROW(smooth(points, 1, 0, &progress), Error);
+  const CancelScope scope(&progress);
+  EXPECT_THROW(smooth(points, 1, 0), Error);
 }
 
 TEST(PlanesTest, NormalAndResidualOfAKnownPatch) {

@@ -27,15 +27,17 @@ void walk_from_outside(const DelaunayComplex& complex, double min_cosine, const 
     side[cell] = CellSide::kOuter;
     stack.push_back(cell);
   };
-  for (std::uint32_t c = 0; c < complex.cells.size(); ++c) {
+  in_turn(complex.cells.size(), [&](std::size_t cell) {
+    const auto c = static_cast<std::uint32_t>(cell);
     for (int i = 0; i < 4 && side[c] == CellSide::kOpen; ++i) {
       if (complex.neighbors[c][i] == kNoCell && may_enter(c) &&
           cos_hull_angle(complex, c, i) > min_cosine) {
         enter(c);
       }
     }
-  }
-  while (!stack.empty()) {
+  });
+  for (std::size_t turn = 0; !stack.empty(); ++turn) {
+    if (turn % 65536 == 0) check_cancelled();
     const std::uint32_t c = stack.back();
     stack.pop_back();
     for (const std::uint32_t d : complex.neighbors[c]) {
@@ -122,8 +124,10 @@ void flood(const DelaunayComplex& complex, const std::vector<double>& ratio,
   std::vector<Bridge> bridges = find_bridges(complex, ratio, side, threads);
   parallel_sort(bridges, threads);
   UnionFind forest(side.size());
-  for (const Bridge& bridge : bridges) join_labels(forest, side, bridge.a, bridge.b);
-  for (std::uint32_t c = 0; c < side.size(); ++c) side[c] = side[forest.root(c)];
+  in_turn(bridges.size(),
+          [&](std::size_t i) { join_labels(forest, side, bridges[i].a, bridges[i].b); });
+  in_turn(side.size(),
+          [&](std::size_t c) { side[c] = side[forest.root(static_cast<std::uint32_t>(c))]; });
 }
 
 // Inner cells in groups so much smaller than the largest that they are gaps in the noise band, not
@@ -132,11 +136,12 @@ void drop_flecks(const DelaunayComplex& complex, std::vector<CellSide>& side) {
   constexpr double kSmallestObject = 0.02;
   UnionFind groups(side.size());
   const auto inner = [&](std::uint32_t c) { return side[c] == CellSide::kInner; };
-  for (std::uint32_t c = 0; c < side.size(); ++c) {
+  in_turn(side.size(), [&](std::size_t cell) {
+    const auto c = static_cast<std::uint32_t>(cell);
     for (const std::uint32_t d : complex.neighbors[c]) {
       if (d != kNoCell && d > c && inner(c) && inner(d)) groups.join(c, d);
     }
-  }
+  });
   std::vector<std::uint32_t> size(side.size(), 0);
   std::uint32_t largest = 0;
   for (std::uint32_t c = 0; c < side.size(); ++c) {

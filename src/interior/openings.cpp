@@ -87,8 +87,9 @@ std::vector<Passage> find_passages(const DelaunayComplex& complex,
                                    int threads) {
   std::vector<Passage> passages;
   const auto unbounded = static_cast<std::uint32_t>(complex.cell_count());
-  for (std::uint32_t c = 0; c < unbounded; ++c) {
-    if (side[c] != CellSide::kOuter) continue;
+  in_turn(unbounded, [&](std::size_t cell) {
+    const auto c = static_cast<std::uint32_t>(cell);
+    if (side[c] != CellSide::kOuter) return;
     const int up = way_up(complex, side, c);
     for (int i = 0; i < 4; ++i) {
       const std::uint32_t d = complex.neighbors[c][i];
@@ -108,7 +109,7 @@ std::vector<Passage> find_passages(const DelaunayComplex& complex,
       if (here && there) radius = circumradius(facet.a, facet.b, facet.c);
       passages.push_back({radius, c, d == kNoCell ? unbounded : d});
     }
-  }
+  });
   parallel_sort(passages, threads);
   return passages;
 }
@@ -252,10 +253,11 @@ Pocket find_pocket(const std::vector<Passage>& passages, std::uint32_t unbounded
                    const std::vector<double>& area) {
   Pockets pockets(poles, backed, area, unbounded);
   Pocket best;
-  for (const Passage& passage : passages) {
+  in_turn(passages.size(), [&](std::size_t i) {
+    const Passage& passage = passages[i];
     const std::uint32_t a = pockets.root(passage.a);
     const std::uint32_t b = pockets.root(passage.b);
-    if (a == b) continue;
+    if (a == b) return;
     const std::uint32_t outside = pockets.root(unbounded);
     const double cost = kWallsPerOpening * std::numbers::pi * passage.radius * passage.radius;
     for (const auto& [set, cell] : {std::pair{a, passage.a}, std::pair{b, passage.b}}) {
@@ -263,7 +265,7 @@ Pocket find_pocket(const std::vector<Passage>& passages, std::uint32_t unbounded
       if (set != outside && value > best.value) best = {value, cell};
     }
     pockets.join(a, b);
-  }
+  });
   return best;
 }
 
@@ -273,14 +275,14 @@ void fill_pocket(std::vector<Passage>& passages, const Pocket& pocket,
                  std::vector<CellSide>& side) {
   const auto unbounded = static_cast<std::uint32_t>(side.size());
   UnionFind sets(side.size() + 1);
-  for (const Passage& passage : passages) {
-    const std::uint32_t a = sets.root(passage.a);
-    const std::uint32_t b = sets.root(passage.b);
+  in_turn(passages.size(), [&](std::size_t i) {
+    const std::uint32_t a = sets.root(passages[i].a);
+    const std::uint32_t b = sets.root(passages[i].b);
     const std::uint32_t inside = sets.root(pocket.cell);
     const std::uint32_t outside = sets.root(unbounded);
-    if ((a == inside && b == outside) || (a == outside && b == inside)) continue;
+    if ((a == inside && b == outside) || (a == outside && b == inside)) return;
     sets.join(a, b);
-  }
+  });
   for (std::uint32_t c = 0; c < side.size(); ++c) {
     if (side[c] == CellSide::kOuter && sets.root(c) == sets.root(pocket.cell)) {
       side[c] = CellSide::kInner;

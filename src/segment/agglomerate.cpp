@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "base/cancel.hpp"
+
 namespace morsel {
 namespace {
 
@@ -54,6 +56,7 @@ class Agglomeration {
     std::vector<Merge> merges;
     double level = 1.0;
     while (true) {
+      check_cancelled();
       const Candidate best = cheapest();
       if (best.cost == std::numeric_limits<double>::infinity()) return merges;
       // Strictly rising, so that a ratio can tell any two merges apart.

@@ -118,6 +118,7 @@ Basins find_basins(const DelaunayComplex& complex, const Interior& interior, int
   basins.basin_of_cell.assign(complex.cell_count(), kNoBasin);
   basins.maximum = find_maxima(complex, interior, flow);
   for (std::uint32_t b = 0; b < basins.maximum.size(); ++b) {
+    check_cancelled();
     collect(complex, flow, interior, b, basins.maximum[b], basins.basin_of_cell);
   }
   adopt_strays(complex, interior, basins);

@@ -88,15 +88,16 @@ void sum_pieces(const DelaunayComplex& complex, const std::vector<std::uint32_t>
   tree.moments.resize(count);
   tree.ball_center.resize(count);
   tree.ball_radius.assign(count, 0.0);
-  for (std::uint32_t c = 0; c < complex.cells.size(); ++c) {
+  in_turn(complex.cells.size(), [&](std::size_t cell) {
+    const auto c = static_cast<std::uint32_t>(cell);
     const std::uint32_t p = piece_of_cell[c];
-    if (p == kNoBasin) continue;
+    if (p == kNoBasin) return;
     tree.moments[p] += cell_moments(complex, c, tree.origin);
     if (complex.radii[c] > tree.ball_radius[p]) {
       tree.ball_radius[p] = complex.radii[c];
       tree.ball_center[p] = complex.centers[c];
     }
-  }
+  });
 }
 
 // Merge ratios of touching basins, single linkage: the minimum spanning forest. Sampling moves

@@ -144,6 +144,7 @@ class Growth {
     };
     take(seed, 0.0);
     for (std::size_t b = 0; b < buckets_.size(); ++b) {
+      check_cancelled();
       for (std::size_t i = 0; i < std::min(kAhead, buckets_[b].size()); ++i) {
         prefetch_neighbors(buckets_[b][i]);
       }

@@ -7,6 +7,7 @@
 #include <morsel/morsel.hpp>
 #include <utility>
 
+#include "base/cancel.hpp"
 #include "base/memory.hpp"
 #include "denoise/thin.hpp"
 
@@ -254,6 +255,7 @@ void SegmentOptions::check() const {
 Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options,
                      const Progress* progress) {
   options.check();
+  const CancelScope scope(progress);
   const bool paper = options.interior.method == Method::kPaper;
   Segmentation s;
   StageRunner stages(s.costs, progress);

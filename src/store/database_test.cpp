@@ -228,6 +228,8 @@ TEST_F(DatabaseTest, PasswordsAreNotNamed) {
   EXPECT_EQ(without_password("postgresql://me:se@cret@host/db"), "postgresql://me@host/db");
   EXPECT_EQ(without_password("postgresql:///db?password=secret&host=/a:b@c"),
             "postgresql:///db?password=***&host=/a:b@c");
+  EXPECT_EQ(without_password("postgresql:///db?host=/a&sslpassword=secret&password=other"),
+            "postgresql:///db?host=/a&sslpassword=***&password=***");
   for (const char* plain : {"postgresql://", "postgresql://host:5/db", "postgres://me@host"}) {
     EXPECT_EQ(without_password(plain), plain);
   }

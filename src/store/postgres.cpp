@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <regex>
 #include <utility>
 
 #include "io/bytes.hpp"
@@ -280,7 +279,14 @@ std::string without_password(std::string address) {
   const std::size_t at = address.rfind('@', end);
   const std::size_t colon = address.find(':', user);
   if (at != std::string::npos && at >= user && colon < at) address.erase(colon, at - colon);
-  return std::regex_replace(address, std::regex("([?&](ssl)?password=)[^&]*"), "$1***");
+  for (const std::string_view option :
+       {"?password=", "&password=", "?sslpassword=", "&sslpassword="}) {
+    for (std::size_t begin = 0; (begin = address.find(option, begin)) != std::string::npos;) {
+      begin += option.size();
+      address.replace(begin, std::min(address.find('&', begin), address.size()) - begin, "***");
+    }
+  }
+  return address;
 }
 
 std::unique_ptr<Connection> open_postgres(const std::string& address, Access access) {
