@@ -4,19 +4,27 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "base/cancel.hpp"
 
 namespace morsel {
 namespace {
 
-// cost = ((1 - sight) + kNeckWeight · ln(ratio / kNoNeck)⁺ + kThicknessWeight · |Δ ln thickness|)
+// cost = ((1 - sight) · (max(surface / contact, kLeastIsolation) / kUsualIsolation)^kIsolationPower
+//         + kNeckWeight · ln(ratio / kNoNeck)⁺ + kThicknessWeight · |Δ ln thickness|
+//         + kNarrowWeight · ln(π thickness² / contact)⁺)
 //        · (20 · share of the smaller side)^kSizePower
 // tuned on the development shapes with ids ≡ 1 mod 4, confirmed on ≡ 3 mod 4 (docs/method.md).
 constexpr double kNeckWeight = 1.32;
 constexpr double kNoNeck = 1.016;
 constexpr double kMostRatio = 5.0;
 constexpr double kThicknessWeight = 0.17;
+constexpr double kIsolationPower = 0.15;
+constexpr double kLeastIsolation = 0.5;
+constexpr double kUsualIsolation = 4.0;
+constexpr double kNarrowWeight = 0.15;
+constexpr double kLeastContact = 1e-6;
 constexpr double kSizePower = 0.4;
 constexpr double kNaturalCost = 0.457;
 
@@ -29,6 +37,7 @@ class Agglomeration {
         alive_(count_, true),
         points_(graph.point_count),
         object_points_(graph.object_count),
+        surface_(graph.surface),
         log_thickness_(count_),
         seen_(count_ * count_),
         weight_(count_ * count_),
@@ -45,9 +54,9 @@ class Agglomeration {
         seen_[at] = weight_[at] * static_cast<double>(sight.seen[at]);
       }
     }
-    for (const Neck& contact : graph.contacts) {
-      const double ratio = std::min(contact.radius, kMostRatio);
-      contacts_[contact.a][contact.b] = contacts_[contact.b][contact.a] = {ratio, 0.0};
+    for (const PieceContact& contact : graph.contacts) {
+      contacts_[contact.a][contact.b] = contacts_[contact.b][contact.a] = {
+          std::min(contact.ratio, kMostRatio), contact.area, 0.0};
     }
     for (std::uint32_t a = 0; a < count_; ++a) price_contacts(a);
   }
@@ -69,6 +78,7 @@ class Agglomeration {
  private:
   struct Contact {
     double ratio = 1.0;
+    double area = 0.0;
     double cost = 0.0;
   };
   struct Candidate {
@@ -77,13 +87,20 @@ class Agglomeration {
     std::uint32_t b = 0;
   };
 
-  [[nodiscard]] double cost(std::uint32_t a, std::uint32_t b, double ratio) const {
+  [[nodiscard]] double cost(std::uint32_t a, std::uint32_t b, const Contact& contact) const {
     const std::size_t at = a * count_ + b;
     const double sight = weight_[at] > 0.0 ? seen_[at] / weight_[at] : 0.0;
-    const double neck = std::max(std::log(ratio / kNoNeck), 0.0);
+    const double neck = std::max(std::log(contact.ratio / kNoNeck), 0.0);
     const double thickness = std::abs(log_thickness_[a] - log_thickness_[b]);
+    const double thinner = std::exp(std::min(log_thickness_[a], log_thickness_[b]));
+    const double section = std::numbers::pi * thinner * thinner;
+    const double area = std::max(contact.area, kLeastContact * section);  // may be no area at all
+    const double isolation = std::min(surface_[a], surface_[b]) / area;
+    const double narrow = std::max(std::log(section / area), 0.0);
     const double share = std::min(points_[a], points_[b]) / object_points_[a];
-    return ((1.0 - sight) + kNeckWeight * neck + kThicknessWeight * thickness) *
+    return ((1.0 - sight) *
+                std::pow(std::max(isolation, kLeastIsolation) / kUsualIsolation, kIsolationPower) +
+            kNeckWeight * neck + kThicknessWeight * thickness + kNarrowWeight * narrow) *
            std::pow(20.0 * share, kSizePower);
   }
 
@@ -91,7 +108,7 @@ class Agglomeration {
   // that of the larger number, is read.
   void price_contacts(std::uint32_t a) {
     for (const auto& [b, contact] : contacts_[a]) {
-      contacts_[std::max(a, b)].at(std::min(a, b)).cost = cost(a, b, contact.ratio);
+      contacts_[std::max(a, b)].at(std::min(a, b)).cost = cost(a, b, contact);
     }
   }
 
@@ -116,12 +133,16 @@ class Agglomeration {
     const double sum = points_[a] + points_[b];
     log_thickness_[a] = (points_[a] * log_thickness_[a] + points_[b] * log_thickness_[b]) / sum;
     points_[a] = sum;
+    surface_[a] += surface_[b];
     alive_[b] = false;
     for (const auto& [k, contact] : contacts_[b]) {
       contacts_[k].erase(b);
       if (k == a) continue;
       const auto [held, fresh] = contacts_[a].try_emplace(k, contact);
-      if (!fresh) held->second.ratio = std::min(held->second.ratio, contact.ratio);
+      if (!fresh) {
+        held->second.ratio = std::min(held->second.ratio, contact.ratio);
+        held->second.area += contact.area;
+      }
       contacts_[k][a] = held->second;
     }
     contacts_[b].clear();
@@ -132,6 +153,7 @@ class Agglomeration {
   std::vector<bool> alive_;
   std::vector<double> points_;
   std::vector<double> object_points_;
+  std::vector<double> surface_;
   std::vector<double> log_thickness_;
   std::vector<double> seen_;                                // sums over pairs of pieces, (p, p)
   std::vector<double> weight_;                              // (p, p)

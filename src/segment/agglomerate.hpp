@@ -1,6 +1,7 @@
 // Joins pieces, the cheapest pair first.
 #pragma once
 
+#include <cstdint>
 #include <morsel/segment.hpp>
 #include <vector>
 
@@ -9,12 +10,21 @@
 
 namespace morsel {
 
+/// Where two pieces touch.
+struct PieceContact {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  double ratio = 1.0;  ///< merge ratio of their regions
+  double area = 0.0;   ///< of the facets that they share, in squared units
+};
+
 /// What the cost of joining pieces is made of.
 struct PieceGraph {
-  std::vector<Neck> contacts;        ///< touching pieces; `radius` holds the merge ratio of the two
+  std::vector<PieceContact> contacts;
   std::vector<double> point_count;   ///< (p)
   std::vector<double> object_count;  ///< (p) points of the object that each piece belongs to
   std::vector<double> thickness;     ///< (p) radius of its largest ball, in units
+  std::vector<double> surface;       ///< (p) area of its facets to the outside, in squared units
 };
 
 /// All merges in their order, with ratios that never fall; `significant` is left to the caller.

@@ -219,10 +219,10 @@ std::vector<std::uint32_t> label_vertices_by_piece(const DelaunayComplex& comple
   return piece_of_vertex;
 }
 
-// Touching pieces with the merge ratio of their regions in place of a radius.
-std::vector<Neck> piece_contacts(const DelaunayComplex& complex, const Basins& basins,
-                                 const BasinGroups& groups, const Pieces& pieces,
-                                 const std::vector<Neck>& piece_necks, double spacing) {
+// Touching pieces with the merge ratio of their regions; their areas are still to be measured.
+std::vector<PieceContact> piece_contacts(const DelaunayComplex& complex, const Basins& basins,
+                                         const BasinGroups& groups, const Pieces& pieces,
+                                         const std::vector<Neck>& piece_necks, double spacing) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> region_ratio;
   for (const Neck& neck : groups.necks) {
     const auto regions =
@@ -231,20 +231,47 @@ std::vector<Neck> piece_contacts(const DelaunayComplex& complex, const Basins& b
     const auto [held, fresh] = region_ratio.try_emplace(regions, ratio);
     if (!fresh) held->second = std::min(held->second, ratio);
   }
-  std::vector<Neck> contacts = piece_necks;
-  for (Neck& contact : contacts) {
-    const auto regions = std::minmax(pieces.region[contact.a], pieces.region[contact.b]);
-    contact.radius = regions.first == regions.second ? 1.0 : region_ratio.at(regions);
+  std::vector<PieceContact> contacts;
+  for (const Neck& neck : piece_necks) {
+    const auto regions = std::minmax(pieces.region[neck.a], pieces.region[neck.b]);
+    const bool one = regions.first == regions.second;
+    contacts.push_back({neck.a, neck.b, one ? 1.0 : region_ratio.at(regions), 0.0});
   }
   return contacts;
 }
 
-PieceGraph make_piece_graph(const MergeTree& tree, std::vector<Neck> contacts) {
+// Areas of the facets between pieces, whose contacts ascend, and between a piece and the outside.
+void measure_facets(const DelaunayComplex& complex, const std::vector<std::uint32_t>& piece_of_cell,
+                    PieceGraph& graph) {
+  graph.surface.assign(graph.point_count.size(), 0.0);
+  const auto pair_of = [](const PieceContact& contact) { return std::pair(contact.a, contact.b); };
+  in_turn(complex.cell_count(), [&](std::size_t c) {
+    const std::uint32_t a = piece_of_cell[c];
+    for (int i = 0; a != kNoBasin && i < 4; ++i) {
+      const std::uint32_t d = complex.neighbors[c][i];
+      const std::uint32_t b = d == kNoCell ? kNoBasin : piece_of_cell[d];
+      if (b <= a) continue;  // kNoBasin is larger than any
+      const auto& slots = kFacetSlots[i];
+      const Vec3& corner = complex.vertices[complex.cells[c][slots[0]]];
+      const double area = 0.5 * norm(cross(complex.vertices[complex.cells[c][slots[1]]] - corner,
+                                           complex.vertices[complex.cells[c][slots[2]]] - corner));
+      if (b == kNoBasin) {
+        graph.surface[a] += area;
+      } else {
+        std::ranges::lower_bound(graph.contacts, std::pair(a, b), {}, pair_of)->area += area;
+      }
+    }
+  });
+}
+
+PieceGraph make_piece_graph(const DelaunayComplex& complex,
+                            const std::vector<std::uint32_t>& piece_of_cell, const MergeTree& tree,
+                            std::vector<PieceContact> contacts) {
   PieceGraph graph;
   graph.point_count.assign(tree.point_count.begin(), tree.point_count.end());
   graph.thickness = tree.ball_radius;
   UnionFind objects(tree.point_count.size());
-  for (const Neck& contact : contacts) objects.join(contact.a, contact.b);
+  for (const PieceContact& contact : contacts) objects.join(contact.a, contact.b);
   std::vector<double> total(tree.point_count.size(), 0.0);
   for (std::uint32_t p = 0; p < total.size(); ++p) {
     total[objects.root(p)] += std::max(graph.point_count[p], 1.0);
@@ -253,6 +280,7 @@ PieceGraph make_piece_graph(const MergeTree& tree, std::vector<Neck> contacts) {
     graph.object_count.push_back(total[objects.root(p)]);
   }
   graph.contacts = std::move(contacts);
+  measure_facets(complex, piece_of_cell, graph);
   return graph;
 }
 
@@ -309,9 +337,10 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
   assign_points(complex,
                 label_vertices_by_piece(complex, vertex_cells, basins, groups, pieces, threads),
                 tree);
+  std::vector<PieceContact> contacts =
+      piece_contacts(complex, basins, groups, pieces, tree.necks, spacing);
   tree.merges = agglomerate(
-      make_piece_graph(tree, piece_contacts(complex, basins, groups, pieces, tree.necks, spacing)),
-      sight.table());
+      make_piece_graph(complex, pieces.piece_of_cell, tree, std::move(contacts)), sight.table());
   tree.component_count = mark_significant(tree.point_count, tree.merges);
   return tree;
 }
