@@ -12,17 +12,17 @@ namespace morsel {
 /// begun on it, throw Error(kCancelled) once `progress` was asked to stop; null changes nothing.
 class CancelScope {
  public:
-  explicit CancelScope(const Progress* progress) : before_(current_) {
-    if (progress != nullptr) current_ = progress;
+  explicit CancelScope(const Progress* progress) : before_(innermost) {
+    if (progress != nullptr) innermost = progress;
   }
   CancelScope(const CancelScope&) = delete;
   CancelScope& operator=(const CancelScope&) = delete;
-  ~CancelScope() { current_ = before_; }
+  ~CancelScope() { innermost = before_; }
 
-  [[nodiscard]] static const Progress* current() { return current_; }
+  [[nodiscard]] static const Progress* current() { return innermost; }
 
  private:
-  static thread_local const Progress* current_;
+  static thread_local const Progress* innermost;
   const Progress* before_;
 };
 

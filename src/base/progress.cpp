@@ -5,7 +5,7 @@
 
 namespace morsel {
 
-thread_local const Progress* CancelScope::current_ = nullptr;
+thread_local const Progress* CancelScope::innermost = nullptr;
 
 void Progress::check() const {
   if (cancelled()) throw Error(ErrorCode::kCancelled, "cancelled");

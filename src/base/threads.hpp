@@ -63,9 +63,7 @@ template <typename Task>
   return Handed<Task>(std::move(task));
 }
 #else
-struct GiverScope {
-  GiverScope() {}
-};
+struct [[maybe_unused]] GiverScope {};
 template <typename Task>
 [[nodiscard]] Task handed(Task task) {
   return task;
