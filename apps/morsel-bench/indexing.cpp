@@ -58,12 +58,10 @@ json run(Way way, const std::vector<ShapeFile>& files, const std::filesystem::pa
   return {{"seconds", watch.seconds() / count}, {"core_seconds", watch.core_seconds() / count}};
 }
 
-double median_ratio(const json& values, const json& to, const char* what) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    ratios.push_back(values[i].at(what).get<double>() / to[i].at(what).get<double>());
-  }
-  return median(std::move(ratios));
+std::vector<double> of(const ordered_json& measured, Way way, const char* what) {
+  std::vector<double> values;
+  for (const auto& run : measured.at("runs").at(kWays[way])) values.push_back(run.at(what));
+  return values;
 }
 
 }  // namespace
@@ -74,35 +72,26 @@ ordered_json measure_indexing(std::size_t files, std::size_t runs, const Triangu
   for (std::size_t i = 0; i < files; ++i) {
     of_run[i * runs / files].push_back(write_shape(folder.path(), i));
   }
-  const auto outcomes = run_isolated(runs * kWayCount, 1, [&](std::size_t job) {
-    const std::size_t of = job / kWayCount;
-    const auto way = static_cast<Way>((of + job) % kWayCount);
-    const auto database = folder.path() / fmt::format("{}-{}.db", of, kWays[way]);
-    return run(way, of_run[of], database, triangulate);
+  const auto values = run_in_turns(kWayCount, runs, [&](std::size_t way, std::size_t number) {
+    const auto database = folder.path() / fmt::format("{}-{}.db", number, kWays[way]);
+    return run(static_cast<Way>(way), of_run[number], database, triangulate);
   });
   ordered_json measured = {{"files", files}, {"points", kPoints}};
-  for (std::size_t job = 0; job < outcomes.size(); ++job) {
-    if (!outcomes[job].error.empty()) throw Error(ErrorCode::kResource, outcomes[job].error);
-    const std::size_t way = (job / kWayCount + job) % kWayCount;
-    measured["runs"][kWays[way]].emplace_back(outcomes[job].value);
-  }
+  for (std::size_t way = 0; way < kWayCount; ++way) measured["runs"][kWays[way]] = values[way];
   return measured;
 }
 
 void print_indexing(const ordered_json& measured) {
-  const json& cgal = measured.at("runs").at(kWays[kTriangulation]);
-  const json& one = measured.at("runs").at(kWays[kOneThread]);
-  const json& all = measured.at("runs").at(kWays[kAllThreads]);
-  std::vector<double> seconds;
-  for (const json& each : cgal) seconds.push_back(each.at("core_seconds").get<double>());
+  const std::vector<double> cgal = of(measured, kTriangulation, "core_seconds");
   fmt::print(
       "\n{} files of {} points indexed: CGAL's triangulation and reading {:.3f} s of a core a "
       "file\n"
       "  one thread {:.2f} of it, all threads {:.2f} of it by the cores, "
       "{:.2f} times as many files a second as one thread\n",
       measured.at("files").get<std::size_t>(), measured.at("points").get<std::size_t>(),
-      median(std::move(seconds)), median_ratio(one, cgal, "core_seconds"),
-      median_ratio(all, cgal, "core_seconds"), median_ratio(one, all, "seconds"));
+      median(cgal), median_ratio(of(measured, kOneThread, "core_seconds"), cgal),
+      median_ratio(of(measured, kAllThreads, "core_seconds"), cgal),
+      median_ratio(of(measured, kOneThread, "seconds"), of(measured, kAllThreads, "seconds")));
 }
 
 }  // namespace morsel::bench

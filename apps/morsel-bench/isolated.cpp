@@ -138,4 +138,18 @@ std::vector<Outcome> run_isolated(std::size_t count, int workers, const Job& job
   return outcomes;
 }
 
+std::vector<std::vector<nlohmann::json>> run_in_turns(
+    std::size_t contenders, std::size_t runs,
+    const std::function<nlohmann::json(std::size_t, std::size_t)>& job) {
+  const auto contender_of = [&](std::size_t i) { return (i / contenders + i) % contenders; };
+  auto outcomes = run_isolated(contenders * runs, 1,
+                               [&](std::size_t i) { return job(contender_of(i), i / contenders); });
+  std::vector<std::vector<nlohmann::json>> values(contenders);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (!outcomes[i].error.empty()) throw Error(ErrorCode::kResource, outcomes[i].error);
+    values[contender_of(i)].push_back(std::move(outcomes[i].value));
+  }
+  return values;
+}
+
 }  // namespace morsel::bench

@@ -23,4 +23,12 @@ struct Outcome {
 [[nodiscard]] std::vector<Outcome> run_isolated(
     std::size_t count, int workers, const std::function<nlohmann::json(std::size_t)>& job);
 
+/// Runs job(contender, run) for each, one at a time, each in a process of its own; a run begins
+/// with another contender than the one before, so that none always follows the same one. Returns of
+/// each contender what it gave in each run. Throws Error(kResource), also with what went wrong in a
+/// job.
+[[nodiscard]] std::vector<std::vector<nlohmann::json>> run_in_turns(
+    std::size_t contenders, std::size_t runs,
+    const std::function<nlohmann::json(std::size_t contender, std::size_t run)>& job);
+
 }  // namespace morsel::bench

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <morsel/error.hpp>
 #include <stdexcept>
 
 namespace morsel::bench {
@@ -42,6 +43,16 @@ TEST(RunIsolated, OutlivesWhatGoesWrong) {
 
 TEST(RunIsolated, DoesNothingForNoJobs) {
   EXPECT_TRUE(run_isolated(0, 2, [](std::size_t) { return nlohmann::json(); }).empty());
+}
+
+TEST(RunInTurns, SortsByContenderAndSaysWhatWentWrong) {
+  const auto values = run_in_turns(
+      3, 2, [](std::size_t contender, std::size_t run) { return 10 * contender + run; });
+  EXPECT_EQ(values, (std::vector<std::vector<nlohmann::json>>{{0, 1}, {10, 11}, {20, 21}}));
+  const auto fails = [](std::size_t, std::size_t) -> nlohmann::json {
+    throw std::runtime_error("no such shape");
+  };
+  EXPECT_THROW(static_cast<void>(run_in_turns(1, 1, fails)), Error);
 }
 
 }  // namespace

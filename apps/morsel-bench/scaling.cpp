@@ -124,8 +124,8 @@ json run_cancelled(const std::vector<Vec3>& points) {
 
 // All that was measured on one input: of each contender, one value a run.
 struct Measured {
-  std::array<std::vector<json>, kContenderCount> runs;
-  std::vector<double> answers;  // to being asked to stop, in seconds
+  std::vector<std::vector<json>> runs;  // of each contender
+  std::vector<double> answers;          // to being asked to stop, in seconds
 
   [[nodiscard]] std::vector<double> of(Contender contender, const json::json_pointer& what) const {
     std::vector<double> values;
@@ -137,10 +137,8 @@ struct Measured {
   }
   // Median of what it took in multiples of CGAL, pair by pair.
   [[nodiscard]] double ratio(Contender contender, const std::string& what) const {
-    std::vector<double> values = of(contender, json::json_pointer(what));
-    const std::vector<double> whole = of(kCgal, json::json_pointer("/seconds"));
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] /= whole[i];
-    return median(std::move(values));
+    return median_ratio(of(contender, json::json_pointer(what)),
+                        of(kCgal, json::json_pointer("/seconds")));
   }
   [[nodiscard]] double memory_ratio() const {
     return middle(kAllThreads, "/bytes") / middle(kCgal, "/bytes");
@@ -171,27 +169,18 @@ std::vector<Vec3> points_of(const Input& input) {
   return points;
 }
 
-// Each run in a process of its own, so that each has a peak of its own; it begins with another
-// contender, so that none always follows the same one.
+// Each run in a process of its own, so that each has a peak of its own.
 Measured measure(const Input& input, std::size_t runs) {
   const std::vector<Vec3> points = points_of(input);
-  const auto contender_of = [](std::size_t job) {
-    return (job / kContenderCount + job) % kContenderCount;
-  };
-  const auto outcomes = run_isolated(runs * kContenderCount, 1, [&](std::size_t job) {
-    const std::size_t contender = contender_of(job);
-    return contender == kCgal ? run_cgal(points)
-                              : run_morsel(points, contender == kOneThread ? 1 : 0);
-  });
   Measured measured;
-  const auto stopped =
-      run_isolated(1, 1, [&](std::size_t /*job*/) { return run_cancelled(points); });
-  if (!stopped[0].error.empty()) throw Error(ErrorCode::kResource, stopped[0].error);
-  measured.answers = stopped[0].value.get<std::vector<double>>();
-  for (std::size_t job = 0; job < outcomes.size(); ++job) {
-    if (!outcomes[job].error.empty()) throw Error(ErrorCode::kResource, outcomes[job].error);
-    measured.runs[contender_of(job)].push_back(outcomes[job].value);
-  }
+  measured.runs =
+      run_in_turns(kContenderCount, runs, [&](std::size_t contender, std::size_t /*run*/) {
+        return contender == kCgal ? run_cgal(points)
+                                  : run_morsel(points, contender == kOneThread ? 1 : 0);
+      });
+  measured.answers =
+      run_in_turns(1, 1, [&](std::size_t, std::size_t) { return run_cancelled(points); })[0][0]
+          .get<std::vector<double>>();
   return measured;
 }
 

@@ -25,6 +25,11 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
+double median_ratio(std::vector<double> values, std::span<const double> to) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] /= to[i];
+  return median(std::move(values));
+}
+
 double mean(std::span<const double> values) {
   if (values.empty()) return 0.0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

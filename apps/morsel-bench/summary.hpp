@@ -18,6 +18,8 @@ namespace morsel::bench {
 
 /// Mean of the two middle ones for an even number; 0 without values.
 [[nodiscard]] double median(std::vector<double> values);
+/// Of each value over its counterpart, of which there are as many.
+[[nodiscard]] double median_ratio(std::vector<double> values, std::span<const double> to);
 [[nodiscard]] double mean(std::span<const double> values);
 
 [[nodiscard]] std::string_view verdict_name(Verdict verdict);

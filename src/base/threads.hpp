@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -58,17 +59,22 @@ class Handed {
 
   Task task_;
 };
-template <typename Task>
-[[nodiscard]] Handed<Task> handed(Task task) {
-  return Handed<Task>(std::move(task));
-}
 #else
 struct [[maybe_unused]] GiverScope {};
 template <typename Task>
-[[nodiscard]] Task handed(Task task) {
-  return task;
-}
+using Handed = Task;
 #endif
+
+/// The task as another thread may run it: it can be cancelled as its giver can.
+template <typename Task>
+[[nodiscard]] auto handed(Task task) {
+  const auto scoped = [task = std::move(task),
+                       whose = CancelScope::current()](auto&&... arguments) {
+    const CancelScope scope(whose);
+    task(std::forward<decltype(arguments)>(arguments)...);
+  };
+  return Handed<std::remove_const_t<decltype(scoped)>>(scoped);
+}
 
 /// Calls body(begin, end) over disjoint ranges that cover [0, count), on at most `threads` threads.
 /// The caller keeps results independent of how the range is split.
@@ -81,11 +87,9 @@ void parallel_ranges(std::size_t count, int threads, const Body& body) {
     return;
   }
   const tbb::blocked_range<std::size_t> all(0, count, kGrain);
-  const auto task =
-      handed([&body, whose = CancelScope::current()](const tbb::blocked_range<std::size_t>& range) {
-        const CancelScope scope(whose);
-        in_pieces(range.begin(), range.end(), body);
-      });
+  const auto task = handed([&body](const tbb::blocked_range<std::size_t>& range) {
+    in_pieces(range.begin(), range.end(), body);
+  });
   const GiverScope giver;
   tbb::task_arena arena(threads);
   arena.execute([&] { tbb::parallel_for(all, task); });
@@ -95,8 +99,7 @@ void parallel_ranges(std::size_t count, int threads, const Body& body) {
 template <typename Body>
 void parallel_rows(std::size_t count, int threads, const Body& body) {
   threads = resolve_threads(threads);
-  const auto turn = [&body, whose = CancelScope::current()](std::size_t i) {
-    const CancelScope scope(whose);
+  const auto turn = [&body](std::size_t i) {
     check_cancelled();
     body(i);
   };

@@ -116,6 +116,27 @@ TEST(ThreadsTest, SortingStopsWhenItIsAskedTo) {
   }
 }
 
+TEST(ThreadsTest, WhatATaskDoesStopsWithItsGiver) {
+  Progress progress;
+  const CancelScope scope(&progress);
+  progress.cancel();
+  for (const int threads : {1, 2}) {
+    std::atomic<int> stopped{0};
+    BackgroundTasks tasks(threads);
+    for (int i = 0; i < 100; ++i) {
+      tasks.run([&stopped] {
+        try {
+          check_cancelled();
+        } catch (const Error&) {
+          ++stopped;
+        }
+      });
+    }
+    tasks.wait();
+    EXPECT_EQ(stopped, 100);
+  }
+}
+
 TEST(ThreadsTest, NothingStopsOutsideOfItsScope) {
   Progress progress;
   progress.cancel();

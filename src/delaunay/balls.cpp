@@ -109,15 +109,11 @@ double cos_ball_angle(const DelaunayComplex& complex, std::size_t a, std::size_t
 }
 
 double cos_hull_angle(const DelaunayComplex& complex, std::size_t cell, int slot) {
-  const auto& cell_vertices = complex.cells[cell];
-  const auto& slots = kFacetSlots[slot];
-  const Vec3& a = complex.vertices[cell_vertices[slots[0]]];
-  const Vec3& b = complex.vertices[cell_vertices[slots[1]]];
-  const Vec3& c = complex.vertices[cell_vertices[slots[2]]];
-  const Vec3 normal = cross(b - a, c - a);
+  const Facet facet = facet_of(complex, cell, slot);
+  const Vec3 normal = normal_of(facet);
   const double length = norm(normal) * complex.radii[cell];
   if (length == 0.0) return -1.0;
-  return std::clamp(dot(normal, complex.centers[cell] - a) / length, -1.0, 1.0);
+  return std::clamp(dot(normal, complex.centers[cell] - facet.a) / length, -1.0, 1.0);
 }
 
 }  // namespace morsel

@@ -13,6 +13,23 @@ namespace morsel {
 inline constexpr std::array<std::array<int, 3>, 4> kFacetSlots{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
+/// Its corners in that order.
+struct Facet {
+  Vec3 a, b, c;
+};
+[[nodiscard]] inline Facet facet_of(const DelaunayComplex& complex, std::size_t cell, int slot) {
+  const auto corner = [&](int k) {
+    return complex.vertices[complex.cells[cell][kFacetSlots[slot][k]]];
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
+/// Along its outer normal, as long as twice its area.
+[[nodiscard]] inline Vec3 normal_of(const Facet& facet) {
+  return cross(facet.b - facet.a, facet.c - facet.a);
+}
+[[nodiscard]] inline double area_of(const Facet& facet) { return 0.5 * norm(normal_of(facet)); }
+
 /// Fills centers and radii of the complex. Cells too flat for double precision are computed with
 /// exact arithmetic.
 void compute_balls(DelaunayComplex& complex, int threads);

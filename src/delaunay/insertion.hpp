@@ -87,8 +87,7 @@ class Insertion {
     for (std::size_t begin = 0; begin < round.size(); begin += kChunk) {
       hints.push_back(vertex_before(round[begin]));
     }
-    const auto insert_chunk = handed([&, whose = CancelScope::current()](std::size_t chunk) {
-      const CancelScope scope(whose);
+    const auto insert_chunk = handed([&](std::size_t chunk) {
       check_cancelled();
       Vertex hint = hints[chunk];
       const std::size_t end = std::min((chunk + 1) * kChunk, round.size());

@@ -48,20 +48,9 @@ struct Passage {
   }
 };
 
-struct Facet {
-  Vec3 a, b, c;
-};
-
-Facet facet_of(const DelaunayComplex& complex, std::uint32_t cell, int slot) {
-  const auto corner = [&](int k) {
-    return complex.vertices[complex.cells[cell][kFacetSlots[slot][k]]];
-  };
-  return {corner(0), corner(1), corner(2)};
-}
-
 // Beyond the facet, as seen from the cell.
 bool is_beyond(const Facet& facet, const Vec3& point) {
-  return dot(cross(facet.b - facet.a, facet.c - facet.a), point - facet.a) > 0.0;
+  return dot(normal_of(facet), point - facet.a) > 0.0;
 }
 
 // Through which facet an outer cell's ball grows: that beyond which its centre lies, towards the
@@ -139,8 +128,7 @@ std::vector<Vec3> hull_normals(const DelaunayComplex& complex) {
   for (std::uint32_t c = 0; c < complex.cell_count(); ++c) {
     for (int i = 0; i < 4; ++i) {
       if (complex.neighbors[c][i] != kNoCell) continue;
-      const Facet facet = facet_of(complex, c, i);
-      const Vec3 normal = cross(facet.b - facet.a, facet.c - facet.a);
+      const Vec3 normal = normal_of(facet_of(complex, c, i));
       for (const int slot : kFacetSlots[i]) {
         Vec3& sum = normals[complex.cells[c][slot]];
         sum = sum + normal;
@@ -301,10 +289,6 @@ struct WideFacet {
   Vec3 center;
   std::array<std::uint32_t, 3> corners;
 };
-
-double area_of(const Facet& facet) {
-  return 0.5 * norm(cross(facet.b - facet.a, facet.c - facet.a));
-}
 
 // Appends what visit(cell, slot, values) finds at the facets of the inside's surface, in the order
 // of cells.

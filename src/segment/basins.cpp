@@ -17,10 +17,8 @@ std::vector<std::uint8_t> find_flow(const DelaunayComplex& complex, const Interi
   const auto set_flow = [&](std::size_t c) {
     const auto& cell = complex.cells[c];
     for (int i = 0; i < 4; ++i) {
-      const auto& slots = kFacetSlots[i];
-      if (inside_equatorial_sphere(complex.vertices[cell[slots[0]]],
-                                   complex.vertices[cell[slots[1]]],
-                                   complex.vertices[cell[slots[2]]], complex.vertices[cell[i]])) {
+      const Facet facet = facet_of(complex, c, i);
+      if (inside_equatorial_sphere(facet.a, facet.b, facet.c, complex.vertices[cell[i]])) {
         flow[c] |= static_cast<std::uint8_t>(1U << i);
       }
     }

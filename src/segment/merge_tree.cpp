@@ -34,12 +34,8 @@ std::vector<Neck> find_necks(const DelaunayComplex& complex,
       for (int i = 0; i < 4; ++i) {
         const std::uint32_t d = complex.neighbors[c][i];
         if (d == kNoCell || label[d] == kNoBasin || label[d] <= b) continue;
-        const auto& cell = complex.cells[c];
-        const auto& slots = kFacetSlots[i];
-        necks.push_back(
-            {b, label[d],
-             circumradius(complex.vertices[cell[slots[0]]], complex.vertices[cell[slots[1]]],
-                          complex.vertices[cell[slots[2]]])});
+        const Facet facet = facet_of(complex, c, i);
+        necks.push_back({b, label[d], circumradius(facet.a, facet.b, facet.c)});
       }
     }
   };
@@ -251,10 +247,7 @@ void measure_facets(const DelaunayComplex& complex, const std::vector<std::uint3
       const std::uint32_t d = complex.neighbors[c][i];
       const std::uint32_t b = d == kNoCell ? kNoBasin : piece_of_cell[d];
       if (b <= a) continue;  // kNoBasin is larger than any
-      const auto& slots = kFacetSlots[i];
-      const Vec3& corner = complex.vertices[complex.cells[c][slots[0]]];
-      const double area = 0.5 * norm(cross(complex.vertices[complex.cells[c][slots[1]]] - corner,
-                                           complex.vertices[complex.cells[c][slots[2]]] - corner));
+      const double area = area_of(facet_of(complex, c, i));
       if (b == kNoBasin) {
         graph.surface[a] += area;
       } else {
