@@ -13,20 +13,21 @@ namespace {
 
 // cost = ((1 - sight) · (max(surface / contact, kLeastIsolation) / kUsualIsolation)^kIsolationPower
 //         + kNeckWeight · ln(ratio / kNoNeck)⁺ + kThicknessWeight · |Δ ln thickness|
-//         + kNarrowWeight · ln(π thickness² / contact)⁺)
+//         + kNarrowWeight · ln(π thickness² / contact)⁺ + kCreaseWeight · concavity²)
 //        · (20 · share of the smaller side)^kSizePower
 // tuned on the development shapes with ids ≡ 1 mod 4, confirmed on ≡ 3 mod 4 (docs/method.md).
-constexpr double kNeckWeight = 1.32;
-constexpr double kNoNeck = 1.016;
+constexpr double kNeckWeight = 1.07;
+constexpr double kNoNeck = 1.017;
 constexpr double kMostRatio = 5.0;
-constexpr double kThicknessWeight = 0.17;
+constexpr double kThicknessWeight = 0.2;
 constexpr double kIsolationPower = 0.15;
 constexpr double kLeastIsolation = 0.5;
 constexpr double kUsualIsolation = 4.0;
-constexpr double kNarrowWeight = 0.15;
+constexpr double kNarrowWeight = 0.23;
 constexpr double kLeastContact = 1e-6;
-constexpr double kSizePower = 0.4;
-constexpr double kNaturalCost = 0.457;
+constexpr double kCreaseWeight = 0.15;
+constexpr double kSizePower = 0.29;
+constexpr double kNaturalCost = 0.56;
 
 double ratio_of_cost(double cost) { return std::exp(std::max(cost, 0.0) / kNeckWeight); }
 
@@ -55,8 +56,9 @@ class Agglomeration {
       }
     }
     for (const PieceContact& contact : graph.contacts) {
-      contacts_[contact.a][contact.b] = contacts_[contact.b][contact.a] = {
-          std::min(contact.ratio, kMostRatio), contact.area, 0.0};
+      contacts_[contact.a][contact.b] =
+          contacts_[contact.b][contact.a] = {std::min(contact.ratio, kMostRatio), contact.area,
+                                             contact.facets, contact.concavity, 0.0};
     }
     for (std::uint32_t a = 0; a < count_; ++a) price_contacts(a);
   }
@@ -79,6 +81,8 @@ class Agglomeration {
   struct Contact {
     double ratio = 1.0;
     double area = 0.0;
+    double facets = 0.0;
+    double concavity = 0.0;
     double cost = 0.0;
   };
   struct Candidate {
@@ -97,10 +101,12 @@ class Agglomeration {
     const double area = std::max(contact.area, kLeastContact * section);  // may be no area at all
     const double isolation = std::min(surface_[a], surface_[b]) / area;
     const double narrow = std::max(std::log(section / area), 0.0);
+    const double concavity = contact.facets > 0.0 ? contact.concavity / contact.facets : 0.0;
     const double share = std::min(points_[a], points_[b]) / object_points_[a];
     return ((1.0 - sight) *
                 std::pow(std::max(isolation, kLeastIsolation) / kUsualIsolation, kIsolationPower) +
-            kNeckWeight * neck + kThicknessWeight * thickness + kNarrowWeight * narrow) *
+            kNeckWeight * neck + kThicknessWeight * thickness + kNarrowWeight * narrow +
+            kCreaseWeight * concavity * concavity) *
            std::pow(20.0 * share, kSizePower);
   }
 
@@ -142,6 +148,8 @@ class Agglomeration {
       if (!fresh) {
         held->second.ratio = std::min(held->second.ratio, contact.ratio);
         held->second.area += contact.area;
+        held->second.facets += contact.facets;
+        held->second.concavity += contact.concavity;
       }
       contacts_[k][a] = held->second;
     }

@@ -14,8 +14,10 @@ namespace morsel {
 struct PieceContact {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
-  double ratio = 1.0;  ///< merge ratio of their regions
-  double area = 0.0;   ///< of the facets that they share, in squared units
+  double ratio = 1.0;      ///< merge ratio of their regions
+  double area = 0.0;       ///< of the facets that they share, in squared units
+  double facets = 0.0;     ///< number of them
+  double concavity = 0.0;  ///< sum over them of their corners' mean concavity
 };
 
 /// What the cost of joining pieces is made of.

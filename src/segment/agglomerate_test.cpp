@@ -51,6 +51,20 @@ TEST(AgglomerateTest, ANeckTakesAHigherRatio) {
   EXPECT_GT(neck, 1.1 * none);
 }
 
+TEST(AgglomerateTest, ACreaseTakesAHigherRatio) {
+  const double flat = merges({{0, 1, 1.0, 3.0}, {1, 2, 1.0, 3.0, 10.0, 0.0}})[1].ratio;
+  const double crease = merges({{0, 1, 1.0, 3.0}, {1, 2, 1.0, 3.0, 10.0, 15.0}})[1].ratio;
+  EXPECT_GT(crease, 1.05 * flat);
+}
+
+// Two creased facets and two flat ones are as good as four between.
+TEST(AgglomerateTest, CreasesOfJoinedPiecesAreAveraged) {
+  const auto two =
+      merges({{0, 1, 1.0, 3.0}, {0, 2, 1.0, 1.0, 2.0, 3.0}, {1, 2, 1.0, 1.0, 2.0, 0.0}});
+  const auto one = merges({{0, 1, 1.0, 3.0}, {1, 2, 1.0, 2.0, 4.0, 3.0}});
+  EXPECT_DOUBLE_EQ(two[1].ratio, one[1].ratio);
+}
+
 TEST(AgglomerateTest, ContactsOfJoinedPiecesAddUp) {
   const auto two = merges({{0, 1, 1.0, 3.0}, {0, 2, 1.0, 1.0}, {1, 2, 1.0, 1.0}});
   const auto one = merges({{0, 1, 1.0, 3.0}, {1, 2, 1.0, 2.0}});

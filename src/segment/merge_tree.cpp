@@ -12,6 +12,7 @@
 #include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
 #include "segment/agglomerate.hpp"
+#include "segment/concavity.hpp"
 #include "segment/pieces.hpp"
 #include "segment/point_labels.hpp"
 #include "segment/sight.hpp"
@@ -215,7 +216,7 @@ std::vector<std::uint32_t> label_vertices_by_piece(const DelaunayComplex& comple
   return piece_of_vertex;
 }
 
-// Touching pieces with the merge ratio of their regions; their areas are still to be measured.
+// Touching pieces with the merge ratio of their regions; their facets are still to be measured.
 std::vector<PieceContact> piece_contacts(const DelaunayComplex& complex, const Basins& basins,
                                          const BasinGroups& groups, const Pieces& pieces,
                                          const std::vector<Neck>& piece_necks, double spacing) {
@@ -231,14 +232,24 @@ std::vector<PieceContact> piece_contacts(const DelaunayComplex& complex, const B
   for (const Neck& neck : piece_necks) {
     const auto regions = std::minmax(pieces.region[neck.a], pieces.region[neck.b]);
     const bool one = regions.first == regions.second;
-    contacts.push_back({neck.a, neck.b, one ? 1.0 : region_ratio.at(regions), 0.0});
+    PieceContact& contact = contacts.emplace_back();
+    contact.a = neck.a;
+    contact.b = neck.b;
+    contact.ratio = one ? 1.0 : region_ratio.at(regions);
   }
   return contacts;
 }
 
-// Areas of the facets between pieces, whose contacts ascend, and between a piece and the outside.
+double mean_of_corners(const DelaunayComplex& complex, std::size_t cell, int slot,
+                       const std::vector<double>& of_vertex) {
+  double sum = 0.0;
+  for (const int k : kFacetSlots[slot]) sum += of_vertex[complex.cells[cell][k]];
+  return sum / 3.0;
+}
+
+// The facets between pieces, whose contacts ascend, and between a piece and the outside.
 void measure_facets(const DelaunayComplex& complex, const std::vector<std::uint32_t>& piece_of_cell,
-                    PieceGraph& graph) {
+                    const std::vector<double>& concavity, PieceGraph& graph) {
   graph.surface.assign(graph.point_count.size(), 0.0);
   const auto pair_of = [](const PieceContact& contact) { return std::pair(contact.a, contact.b); };
   in_turn(complex.cell_count(), [&](std::size_t c) {
@@ -251,7 +262,11 @@ void measure_facets(const DelaunayComplex& complex, const std::vector<std::uint3
       if (b == kNoBasin) {
         graph.surface[a] += area;
       } else {
-        std::ranges::lower_bound(graph.contacts, std::pair(a, b), {}, pair_of)->area += area;
+        PieceContact& contact =
+            *std::ranges::lower_bound(graph.contacts, std::pair(a, b), {}, pair_of);
+        contact.area += area;
+        contact.facets += 1.0;
+        contact.concavity += mean_of_corners(complex, c, i, concavity);
       }
     }
   });
@@ -259,6 +274,7 @@ void measure_facets(const DelaunayComplex& complex, const std::vector<std::uint3
 
 PieceGraph make_piece_graph(const DelaunayComplex& complex,
                             const std::vector<std::uint32_t>& piece_of_cell, const MergeTree& tree,
+                            const std::vector<double>& concavity,
                             std::vector<PieceContact> contacts) {
   PieceGraph graph;
   graph.point_count.assign(tree.point_count.begin(), tree.point_count.end());
@@ -273,7 +289,7 @@ PieceGraph make_piece_graph(const DelaunayComplex& complex,
     graph.object_count.push_back(total[objects.root(p)]);
   }
   graph.contacts = std::move(contacts);
-  measure_facets(complex, piece_of_cell, graph);
+  measure_facets(complex, piece_of_cell, concavity, graph);
   return graph;
 }
 
@@ -332,8 +348,10 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
                 tree);
   std::vector<PieceContact> contacts =
       piece_contacts(complex, basins, groups, pieces, tree.necks, spacing);
-  tree.merges = agglomerate(
-      make_piece_graph(complex, pieces.piece_of_cell, tree, std::move(contacts)), sight.table());
+  const PieceGraph graph = make_piece_graph(
+      complex, pieces.piece_of_cell, tree,
+      vertex_concavity(complex, vertex_cells, interior, threads), std::move(contacts));
+  tree.merges = agglomerate(graph, sight.table());
   tree.component_count = mark_significant(tree.point_count, tree.merges);
   return tree;
 }

@@ -1,0 +1,47 @@
+#include "segment/concavity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/threads.hpp"
+
+namespace morsel {
+namespace {
+
+// Whether a facet of the cell that holds the vertex has nothing beyond it.
+bool touches_hull(const DelaunayComplex& complex, std::uint32_t cell, std::uint32_t vertex) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (complex.neighbors[cell][i] == kNoCell && complex.cells[cell][i] != vertex) return true;
+  }
+  return false;
+}
+
+double concavity_of(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                    const Interior& interior, std::uint32_t vertex) {
+  double inner = 0.0;
+  double outer = 0.0;
+  for (const std::uint32_t c : vertex_cells.of(vertex)) {
+    if (touches_hull(complex, c, vertex)) return 0.0;
+    double& largest = interior.side[c] == CellSide::kInner ? inner : outer;
+    largest = std::max(largest, complex.radii[c]);
+  }
+  if (!(inner > 0.0)) return 0.0;
+  return std::min(std::log1p(inner / outer), kMostConcave);  // also where nothing is outer
+}
+
+}  // namespace
+
+std::vector<double> vertex_concavity(const DelaunayComplex& complex,
+                                     const VertexCells& vertex_cells, const Interior& interior,
+                                     int threads) {
+  std::vector<double> concavity(complex.vertices.size());
+  parallel_ranges(concavity.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      concavity[v] = concavity_of(complex, vertex_cells, interior, static_cast<std::uint32_t>(v));
+    }
+  });
+  return concavity;
+}
+
+}  // namespace morsel
