@@ -58,8 +58,10 @@ struct Interior {
 /// Source: Dey, Giesen, Goswami 2004, section 2.
 ///
 /// Method::kDefault walks so with strict thresholds, which leaves two kinds of seeds, and floods
-/// from both over the remaining cells, strongest connection first. Between the two, openings of the
-/// surface are closed that are small against the surface behind them.
+/// from both over the remaining cells, strongest connection first; what lies opposite a seed, as
+/// seen from a vertex, is connected with the other kind. Between the two, openings of the surface
+/// are closed that are small against the surface behind them.
+/// Source: N. Amenta, S. Choi, R. Kolluri, "The Power Crust", 2001, for what lies opposite.
 /// Differs: bigness is measured against the largest λ of a cell's corners, and no threshold decides
 /// the cells between the seeds. Cost: O(c log c).
 [[nodiscard]] Interior find_interior(const DelaunayComplex& complex,

@@ -13,6 +13,7 @@
 #include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
 #include "interior/openings.hpp"
+#include "interior/poles.hpp"
 
 namespace morsel {
 namespace {
@@ -117,17 +118,57 @@ std::vector<Bridge> find_bridges(const DelaunayComplex& complex, const std::vect
   return parallel_collect<Bridge>(side.size(), threads, collect);
 }
 
+// What an open cell is joined to for being opposite a seed: stands for all cells of that label.
+struct Shores {
+  std::uint32_t outer;
+  std::uint32_t inner;
+};
+
+// A point of a surface has the inside on one face and the outside on the other. Where the largest
+// ball of a vertex is a seed, or unbounded, the largest one opposite is of the other kind, however
+// thin the wall: there it is too small to be a seed by itself.
+std::vector<Bridge> find_walls(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+                               const std::vector<double>& ratio, const std::vector<CellSide>& side,
+                               const Shores& shores, int threads) {
+  const std::vector<Vec3> normals = hull_normals(complex);
+  const auto any = [](std::uint32_t) { return true; };
+  const auto visit = [&](std::uint32_t v, std::vector<Bridge>& walls) {
+    Vec3 direction = normals[v];
+    CellSide seed = CellSide::kOuter;
+    if (!(squared_norm(direction) > 0.0)) {
+      const std::uint32_t pole = largest_ball(complex, vertex_cells, v, any);
+      if (pole == kNoCell || side[pole] == CellSide::kOpen) return;
+      direction = way_to_center(complex, v, pole);
+      seed = side[pole];
+    }
+    const std::uint32_t c = largest_opposite_ball(complex, vertex_cells, v, direction, any);
+    if (c == kNoCell || side[c] != CellSide::kOpen) return;
+    const double depth = 1.0 - cosine(way_to_center(complex, v, c), direction);
+    walls.push_back({ratio[c] * depth, c, seed == CellSide::kOuter ? shores.inner : shores.outer});
+  };
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Bridge>& walls) {
+    for (std::size_t v = begin; v < end; ++v) visit(static_cast<std::uint32_t>(v), walls);
+  };
+  return parallel_collect<Bridge>(normals.size(), threads, collect);
+}
+
 // Flooding from the seeds, strongest bridge first, first come first served, is growing a maximum
 // spanning forest with one kind of seed a tree; so the bridges are sorted once and joined.
-void flood(const DelaunayComplex& complex, const std::vector<double>& ratio,
-           std::vector<CellSide>& side, int threads) {
+void flood(const DelaunayComplex& complex, const VertexCells& vertex_cells,
+           const std::vector<double>& ratio, std::vector<CellSide>& side, int threads) {
+  const auto cells = static_cast<std::uint32_t>(side.size());
+  const Shores shores{.outer = cells, .inner = cells + 1};
   std::vector<Bridge> bridges = find_bridges(complex, ratio, side, threads);
+  const auto walls = find_walls(complex, vertex_cells, ratio, side, shores, threads);
+  bridges.insert(bridges.end(), walls.begin(), walls.end());
   parallel_sort(bridges, threads);
+  side.insert(side.end(), {CellSide::kOuter, CellSide::kInner});
   UnionFind forest(side.size());
   in_turn(bridges.size(),
           [&](std::size_t i) { join_labels(forest, side, bridges[i].a, bridges[i].b); });
   in_turn(side.size(),
           [&](std::size_t c) { side[c] = side[forest.root(static_cast<std::uint32_t>(c))]; });
+  side.resize(cells);
 }
 
 // Inner cells in groups so much smaller than the largest that they are gaps in the noise band, not
@@ -168,7 +209,7 @@ Interior label_by_flood(const DelaunayComplex& complex, const VertexCells& verte
   const Closing closing =
       close_openings(complex, vertex_cells, lambda, kSeedCosine, interior.side, threads);
   interior.bare_share = closing.bare_share;
-  flood(complex, ratio, interior.side, threads);
+  flood(complex, vertex_cells, ratio, interior.side, threads);
   drop_flecks(complex, interior.side);
   Openings openings = find_openings(complex, lambda, interior.side, closing.leaked, threads);
   interior.openings = std::move(openings.list);

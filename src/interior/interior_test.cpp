@@ -96,6 +96,26 @@ TEST(InteriorTest, AnEnclosedCavityCountsAsInside) {
   expect_volume(points, kUnitBall, 0.02);
 }
 
+// Samples lie 0.02 apart on each side; no ball within is four times larger than their spacing.
+TEST(InteriorTest, PlatesAsThinAsTwoSpacings) {
+  for (const double thickness : {0.04, 0.06, 0.08}) {
+    expect_volume(shapes::box(5000, {1, 1, thickness}), thickness, 0.05);
+  }
+}
+
+TEST(InteriorTest, ABarAsThinAsThreeSpacings) {
+  expect_volume(shapes::box(1000, {4, 0.1, 0.1}), 4 * 0.1 * 0.1, 0.2);
+}
+
+TEST(InteriorTest, ThinBoardsAboveEachOther) {
+  const Points boards =
+      shapes::joined(shapes::box(5000, {1, 1, 0.06}),
+                     shapes::moved(shapes::box(5000, {1, 1, 0.06}, 2), {0, 0, 0.26}));
+  const Labelled labelled = label(boards);
+  expect_consistent(labelled);
+  EXPECT_NEAR(labelled.interior.volume, 0.12, 0.006);
+}
+
 TEST(InteriorTest, DefaultMethodLeavesNoCellOpen) {
   for (const Points& points : {shapes::sphere(4000), shapes::dumbbell(6000),
                                shapes::noisy(shapes::torus(6000, 2.0, 0.6), 0.02)}) {

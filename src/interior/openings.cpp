@@ -13,6 +13,7 @@
 #include "base/threads.hpp"
 #include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
+#include "interior/poles.hpp"
 
 namespace morsel {
 namespace {
@@ -32,7 +33,7 @@ constexpr double kWideFacet = 6.0;  // longest edge over spacing
 // λ² is this share of the area that each of uniformly random points on a plane stands for.
 constexpr double kAreaPerSquaredLambda = 1.88;
 
-constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr std::uint32_t kNone = kNoCell;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where the way between two neighbouring cells' centres is narrowest: the least radius of the
@@ -122,49 +123,21 @@ struct Poles {
   std::uint32_t second = kNone;  // another on the opposite side, if no inner cell touches it
 };
 
-// Sum of the normals of the hull's facets around each vertex; zero within.
-std::vector<Vec3> hull_normals(const DelaunayComplex& complex) {
-  std::vector<Vec3> normals(complex.vertices.size());
-  for (std::uint32_t c = 0; c < complex.cell_count(); ++c) {
-    for (int i = 0; i < 4; ++i) {
-      if (complex.neighbors[c][i] != kNoCell) continue;
-      const Vec3 normal = normal_of(facet_of(complex, c, i));
-      for (const int slot : kFacetSlots[i]) {
-        Vec3& sum = normals[complex.cells[c][slot]];
-        sum = sum + normal;
-      }
-    }
-  }
-  return normals;
-}
-
 // Of the vertex v; `normal` is that of the hull there, zero within it.
 Poles poles_of(const DelaunayComplex& complex, const VertexCells& vertex_cells,
                const std::vector<CellSide>& side, std::uint32_t v, const Vec3& normal,
                bool backed) {
-  constexpr double kOpposite = -0.5;
-  const auto way = [&](std::uint32_t c) { return complex.centers[c] - complex.vertices[v]; };
+  const auto outer = [&](std::uint32_t c) { return side[c] == CellSide::kOuter; };
   Poles poles;
   Vec3 direction = normal;
   if (squared_norm(normal) > 0.0) {
     poles.first = static_cast<std::uint32_t>(complex.cell_count());
   } else {
-    double largest = 0.0;
-    for (const std::uint32_t c : vertex_cells.of(v)) {
-      if (side[c] != CellSide::kOuter || complex.radii[c] <= largest) continue;
-      largest = complex.radii[c];
-      poles.first = c;
-      direction = way(c);
-    }
+    poles.first = largest_ball(complex, vertex_cells, v, outer);
+    if (poles.first == kNone) return poles;
+    direction = way_to_center(complex, v, poles.first);
   }
-  if (poles.first == kNone || backed) return poles;
-  double largest = 0.0;
-  for (const std::uint32_t c : vertex_cells.of(v)) {
-    if (side[c] != CellSide::kOuter || complex.radii[c] <= largest) continue;
-    if (dot(way(c), direction) > kOpposite * norm(way(c)) * norm(direction)) continue;
-    largest = complex.radii[c];
-    poles.second = c;
-  }
+  if (!backed) poles.second = largest_opposite_ball(complex, vertex_cells, v, direction, outer);
   return poles;
 }
 
