@@ -12,24 +12,25 @@ namespace morsel {
 namespace {
 
 // cost = ((1 - sight) · (max(surface / contact, kLeastIsolation) / kUsualIsolation)^kIsolationPower
-//         + kNeckWeight · ln(ratio / kNoNeck)⁺ + kThicknessWeight · |Δ ln thickness|
+//         + ln(ratio / kNoNeck)⁺ + kThicknessWeight · |Δ ln thickness|
 //         + kNarrowWeight · ln(π thickness² / contact)⁺ + kCreaseWeight · concavity²)
 //        · (20 · share of the smaller side)^kSizePower
+//        · (4 · thickness of the thicker side / radius of the object)^kBulkPower
 // tuned on the development shapes with ids ≡ 1 mod 4, confirmed on ≡ 3 mod 4 (docs/method.md).
-constexpr double kNeckWeight = 1.07;
 constexpr double kNoNeck = 1.017;
 constexpr double kMostRatio = 5.0;
-constexpr double kThicknessWeight = 0.2;
-constexpr double kIsolationPower = 0.15;
+constexpr double kThicknessWeight = 0.3;
+constexpr double kIsolationPower = 0.2;
 constexpr double kLeastIsolation = 0.5;
 constexpr double kUsualIsolation = 4.0;
-constexpr double kNarrowWeight = 0.23;
+constexpr double kNarrowWeight = 0.2;
 constexpr double kLeastContact = 1e-6;
-constexpr double kCreaseWeight = 0.15;
-constexpr double kSizePower = 0.29;
-constexpr double kNaturalCost = 0.56;
+constexpr double kCreaseWeight = 0.17;
+constexpr double kSizePower = 0.2;
+constexpr double kBulkPower = 0.25;
+constexpr double kNaturalCost = 0.59;
 
-double ratio_of_cost(double cost) { return std::exp(std::max(cost, 0.0) / kNeckWeight); }
+double ratio_of_cost(double cost) { return std::exp(std::max(cost, 0.0)); }
 
 class Agglomeration {
  public:
@@ -38,6 +39,7 @@ class Agglomeration {
         alive_(count_, true),
         points_(graph.point_count),
         object_points_(graph.object_count),
+        object_radius_(graph.object_radius),
         surface_(graph.surface),
         log_thickness_(count_),
         seen_(count_ * count_),
@@ -97,6 +99,7 @@ class Agglomeration {
     const double neck = std::max(std::log(contact.ratio / kNoNeck), 0.0);
     const double thickness = std::abs(log_thickness_[a] - log_thickness_[b]);
     const double thinner = std::exp(std::min(log_thickness_[a], log_thickness_[b]));
+    const double thicker = std::exp(std::max(log_thickness_[a], log_thickness_[b]));
     const double section = std::numbers::pi * thinner * thinner;
     const double area = std::max(contact.area, kLeastContact * section);  // may be no area at all
     const double isolation = std::min(surface_[a], surface_[b]) / area;
@@ -105,9 +108,10 @@ class Agglomeration {
     const double share = std::min(points_[a], points_[b]) / object_points_[a];
     return ((1.0 - sight) *
                 std::pow(std::max(isolation, kLeastIsolation) / kUsualIsolation, kIsolationPower) +
-            kNeckWeight * neck + kThicknessWeight * thickness + kNarrowWeight * narrow +
+            neck + kThicknessWeight * thickness + kNarrowWeight * narrow +
             kCreaseWeight * concavity * concavity) *
-           std::pow(20.0 * share, kSizePower);
+           std::pow(20.0 * share, kSizePower) *
+           std::pow(4.0 * thicker / object_radius_[a], kBulkPower);
   }
 
   // What joining a with each group beside it costs; only the other one of a pair's two entries,
@@ -161,6 +165,7 @@ class Agglomeration {
   std::vector<bool> alive_;
   std::vector<double> points_;
   std::vector<double> object_points_;
+  std::vector<double> object_radius_;
   std::vector<double> surface_;
   std::vector<double> log_thickness_;
   std::vector<double> seen_;                                // sums over pairs of pieces, (p, p)

@@ -25,8 +25,10 @@ struct PieceGraph {
   std::vector<PieceContact> contacts;
   std::vector<double> point_count;   ///< (p)
   std::vector<double> object_count;  ///< (p) points of the object that each piece belongs to
-  std::vector<double> thickness;     ///< (p) radius of its largest ball, in units
-  std::vector<double> surface;       ///< (p) area of its facets to the outside, in squared units
+  std::vector<double>
+      object_radius;              ///< (p) of the ball with as much surface as that object, in units
+  std::vector<double> thickness;  ///< (p) radius of its largest ball, in units
+  std::vector<double> surface;    ///< (p) area of its facets to the outside, in squared units
 };
 
 /// All merges in their order, with ratios that never fall; `significant` is left to the caller.

@@ -14,6 +14,7 @@ PieceGraph three_pieces(std::vector<PieceContact> contacts) {
   graph.contacts = std::move(contacts);
   graph.point_count.assign(3, 100.0);
   graph.object_count.assign(3, 300.0);
+  graph.object_radius.assign(3, 4.0);
   graph.thickness.assign(3, 1.0);
   graph.surface.assign(3, 10.0);
   return graph;
@@ -63,6 +64,13 @@ TEST(AgglomerateTest, CreasesOfJoinedPiecesAreAveraged) {
       merges({{0, 1, 1.0, 3.0}, {0, 2, 1.0, 1.0, 2.0, 3.0}, {1, 2, 1.0, 1.0, 2.0, 0.0}});
   const auto one = merges({{0, 1, 1.0, 3.0}, {1, 2, 1.0, 2.0, 4.0, 3.0}});
   EXPECT_DOUBLE_EQ(two[1].ratio, one[1].ratio);
+}
+
+TEST(AgglomerateTest, ThickPiecesTakeAHigherRatio) {
+  PieceGraph graph = three_pieces({{0, 1, 1.0, 3.0}, {1, 2, 1.0, 3.0}});
+  const double thin = agglomerate(graph, half_sight())[1].ratio;
+  graph.object_radius.assign(3, 2.0);  // so that the same thickness is more of it
+  EXPECT_GT(agglomerate(graph, half_sight())[1].ratio, 1.05 * thin);
 }
 
 TEST(AgglomerateTest, ContactsOfJoinedPiecesAddUp) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <morsel/segment.hpp>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -272,24 +273,33 @@ void measure_facets(const DelaunayComplex& complex, const std::vector<std::uint3
   });
 }
 
+// What the objects, the groups of pieces that touch, have altogether.
+void measure_objects(PieceGraph& graph) {
+  const std::size_t count = graph.point_count.size();
+  UnionFind objects(count);
+  for (const PieceContact& contact : graph.contacts) objects.join(contact.a, contact.b);
+  std::vector<double> points(count, 0.0);
+  std::vector<double> surface(count, 0.0);
+  for (std::uint32_t p = 0; p < count; ++p) {
+    points[objects.root(p)] += std::max(graph.point_count[p], 1.0);
+    surface[objects.root(p)] += graph.surface[p];
+  }
+  for (std::uint32_t p = 0; p < count; ++p) {
+    graph.object_count.push_back(points[objects.root(p)]);
+    graph.object_radius.push_back(std::sqrt(surface[objects.root(p)] / (4.0 * std::numbers::pi)));
+  }
+}
+
 PieceGraph make_piece_graph(const DelaunayComplex& complex,
                             const std::vector<std::uint32_t>& piece_of_cell, const MergeTree& tree,
                             const std::vector<double>& concavity,
                             std::vector<PieceContact> contacts) {
   PieceGraph graph;
+  graph.contacts = std::move(contacts);
   graph.point_count.assign(tree.point_count.begin(), tree.point_count.end());
   graph.thickness = tree.ball_radius;
-  UnionFind objects(tree.point_count.size());
-  for (const PieceContact& contact : contacts) objects.join(contact.a, contact.b);
-  std::vector<double> total(tree.point_count.size(), 0.0);
-  for (std::uint32_t p = 0; p < total.size(); ++p) {
-    total[objects.root(p)] += std::max(graph.point_count[p], 1.0);
-  }
-  for (std::uint32_t p = 0; p < total.size(); ++p) {
-    graph.object_count.push_back(total[objects.root(p)]);
-  }
-  graph.contacts = std::move(contacts);
   measure_facets(complex, piece_of_cell, concavity, graph);
+  measure_objects(graph);
   return graph;
 }
 

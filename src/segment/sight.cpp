@@ -12,7 +12,7 @@ namespace morsel {
 namespace {
 
 // Root mean square radii of the object at which a pair's weight has fallen to 1/e.
-constexpr double kSightScale = 0.5;
+constexpr double kSightScale = 0.65;
 // Pairs farther apart, of weights below exp(-1.5²) = 0.1, are not looked at.
 constexpr double kSightReach = 1.5 * kSightScale;
 
