@@ -130,6 +130,8 @@ struct Shores {
 std::vector<Bridge> find_walls(const DelaunayComplex& complex, const VertexCells& vertex_cells,
                                const std::vector<double>& ratio, const std::vector<CellSide>& side,
                                const Shores& shores, int threads) {
+  // Balls between points that fill space, not a surface, are about as large as their spacing.
+  constexpr double kWallRatio = 1.25;
   const std::vector<Vec3> normals = hull_normals(complex);
   const auto any = [](std::uint32_t) { return true; };
   const auto visit = [&](std::uint32_t v, std::vector<Bridge>& walls) {
@@ -142,7 +144,7 @@ std::vector<Bridge> find_walls(const DelaunayComplex& complex, const VertexCells
       seed = side[pole];
     }
     const std::uint32_t c = largest_opposite_ball(complex, vertex_cells, v, direction, any);
-    if (c == kNoCell || side[c] != CellSide::kOpen) return;
+    if (c == kNoCell || side[c] != CellSide::kOpen || ratio[c] < kWallRatio) return;
     const double depth = 1.0 - cosine(way_to_center(complex, v, c), direction);
     walls.push_back({ratio[c] * depth, c, seed == CellSide::kOuter ? shores.inner : shores.outer});
   };
