@@ -73,11 +73,9 @@ struct VertexCells {
 [[nodiscard]] VertexCells find_vertex_cells(const DelaunayComplex& complex);
 
 /// λ of the paper: each vertex's mean distance to its three nearest vertices (to all others where
-/// there are fewer), exact: the (i + 1)-th nearest neighbour is a Delaunay neighbour of the vertex
-/// or of one of its first i. Cost: O(c) for bounded vertex degrees.
+/// there are fewer), exact. Cost: O(v log v).
 /// Source: Dey, Giesen, Goswami 2004, section 2.
 [[nodiscard]] std::vector<double> mean_neighbor_distance(const DelaunayComplex& complex,
-                                                         const VertexCells& vertex_cells,
                                                          int threads = 0);
 
 }  // namespace morsel

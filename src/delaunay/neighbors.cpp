@@ -1,58 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
 #include <morsel/delaunay.hpp>
 
+#include "base/neighborhoods.hpp"
 #include "base/threads.hpp"
 
 namespace morsel {
-namespace {
-
-// The nearest vertices found so far, nearest first; ties go to the smaller index.
-struct Nearest {
-  struct Entry {
-    double squared = std::numeric_limits<double>::infinity();
-    std::uint32_t vertex = kNoVertex;
-
-    friend bool operator<(const Entry& x, const Entry& y) {
-      return x.squared != y.squared ? x.squared < y.squared : x.vertex < y.vertex;
-    }
-  };
-  std::array<Entry, 3> entries;
-
-  // Whoever is held already, or was sent away, is not taken again.
-  void offer(const Entry& entry) {
-    if (!(entry < entries[2]) || entry.vertex == entries[0].vertex ||
-        entry.vertex == entries[1].vertex) {
-      return;
-    }
-    entries[2] = entry;
-    if (entries[2] < entries[1]) std::swap(entries[2], entries[1]);
-    if (entries[1] < entries[0]) std::swap(entries[1], entries[0]);
-  }
-};
-
-Nearest find_nearest_three(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-                           std::uint32_t p) {
-  Nearest nearest;
-  const auto offer_star = [&](std::uint32_t center) {
-    for (const std::uint32_t c : vertex_cells.of(center)) {
-      for (const std::uint32_t v : complex.cells[c]) {
-        if (v != p) nearest.offer({squared_distance(complex.vertices[p], complex.vertices[v]), v});
-      }
-    }
-  };
-  offer_star(p);
-  // entries[0] is final after the own star, entries[1] after the star of entries[0], …
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::uint32_t vertex = nearest.entries[k].vertex;
-    if (vertex != kNoVertex) offer_star(vertex);
-  }
-  return nearest;
-}
-
-}  // namespace
-
 double cell_volume(const DelaunayComplex& complex, std::size_t cell) {
   const auto& [i, j, k, l] = complex.cells[cell];
   const Vec3& p = complex.vertices[i];
@@ -86,22 +40,21 @@ VertexCells find_vertex_cells(const DelaunayComplex& complex) {
   return result;
 }
 
-std::vector<double> mean_neighbor_distance(const DelaunayComplex& complex,
-                                           const VertexCells& vertex_cells, int threads) {
-  std::vector<double> lambda(complex.vertices.size(), 0.0);
-  parallel_ranges(lambda.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      double sum = 0.0;
-      int count = 0;
-      const Nearest nearest =
-          find_nearest_three(complex, vertex_cells, static_cast<std::uint32_t>(i));
-      for (const auto& entry : nearest.entries) {
-        if (entry.vertex == kNoVertex) break;
-        sum += std::sqrt(entry.squared);
-        ++count;
-      }
-      if (count > 0) lambda[i] = sum / count;
+std::vector<double> mean_neighbor_distance(const DelaunayComplex& complex, int threads) {
+  const std::vector<Vec3>& points = complex.vertices;
+  const Neighborhoods nearest = find_neighborhoods(points, 3, threads);
+  std::vector<double> lambda(points.size(), 0.0);
+  if (nearest.size == 0) return lambda;
+  const auto measure = [&](std::size_t i) {
+    std::array<double, 3> distances{};
+    for (std::size_t k = 0; k < nearest.size; ++k) {
+      distances[k] = distance(points[i], points[nearest.of(i)[k]]);
     }
+    std::ranges::sort(distances);  // rounds the same sum of them to the same value
+    lambda[i] = (distances[0] + distances[1] + distances[2]) / static_cast<double>(nearest.size);
+  };
+  parallel_ranges(points.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) measure(i);
   });
   return lambda;
 }

@@ -34,7 +34,7 @@ void expect_as_brute_force(const Points& points) {
   const std::vector<double> expected = brute_force(complex.vertices);
   for (const int threads : {1, 2}) {
     const std::vector<double> lambda =
-        mean_neighbor_distance(complex, find_vertex_cells(complex), threads);
+        mean_neighbor_distance(complex, threads);
     ASSERT_EQ(lambda.size(), expected.size());
     for (std::size_t i = 0; i < lambda.size(); ++i) {
       EXPECT_NEAR(lambda[i], expected[i], 1e-12 * expected[i]) << i;
@@ -85,7 +85,7 @@ TEST(NeighborsTest, VertexCellsAreTheCellsOfEachVertex) {
 
 TEST(NeighborsTest, NothingToMeasure) {
   const DelaunayComplex empty = triangulate({});
-  EXPECT_TRUE(mean_neighbor_distance(empty, find_vertex_cells(empty)).empty());
+  EXPECT_TRUE(mean_neighbor_distance(empty).empty());
 }
 
 }  // namespace

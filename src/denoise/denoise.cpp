@@ -4,10 +4,10 @@
 #include <morsel/error.hpp>
 #include <string>
 
+#include "base/neighborhoods.hpp"
 #include "base/quantile.hpp"
 #include "base/spatial_order.hpp"
 #include "base/threads.hpp"
-#include "denoise/neighborhoods.hpp"
 #include "denoise/planes.hpp"
 #include "denoise/smooth.hpp"
 
@@ -27,12 +27,15 @@ std::vector<bool> find_outliers(const Neighborhoods& neighborhoods, double far, 
   constexpr double kFromNeighbors = 1.6;
   const std::vector<double>& reach = neighborhoods.reach;
   std::vector<char> is_outlier(reach.size(), 0);
+  const auto half =
+      static_cast<std::ptrdiff_t>(std::max<std::size_t>((neighborhoods.size + 1) / 2, 1));
   parallel_ranges(reach.size(), threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> around(neighborhoods.size);
     for (std::size_t i = begin; i < end; ++i) {
-      const auto neighbors = neighborhoods.of(i);
-      std::ranges::transform(neighbors, around.begin(), [&](std::uint32_t j) { return reach[j]; });
-      is_outlier[i] = reach[i] > far || reach[i] > kFromNeighbors * quantile(around, 0.5) ? 1 : 0;
+      // Their median is so small if half of them are.
+      const auto small = std::ranges::count_if(neighborhoods.of(i), [&](std::uint32_t j) {
+        return kFromNeighbors * reach[j] < reach[i];
+      });
+      is_outlier[i] = reach[i] > far || small >= half ? 1 : 0;
     }
   });
   return {is_outlier.begin(), is_outlier.end()};

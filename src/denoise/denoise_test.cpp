@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/test_shapes.hpp"
-#include "denoise/neighborhoods.hpp"
 
 namespace morsel {
 namespace {
@@ -201,27 +200,6 @@ TEST(DenoiseTest, CanBeCancelled) {
   Progress progress;
   progress.cancel();
   EXPECT_THROW((void)denoise(shapes::cube_cloud(100), {}, &progress), Error);
-}
-
-TEST(NeighborhoodsTest, AgreeWithBruteForce) {
-  const Points points = shapes::cube_cloud(400);
-  const Neighborhoods found = find_neighborhoods(points, 7, 2);
-  ASSERT_EQ(found.size, 7U);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::vector<std::uint32_t> expected = shapes::permutation(points.size());
-    std::erase(expected, static_cast<std::uint32_t>(i));
-    std::ranges::sort(expected, {},
-                      [&](std::uint32_t j) { return squared_distance(points[i], points[j]); });
-    expected.resize(7);
-    EXPECT_TRUE(std::ranges::equal(found.of(i), expected));
-    EXPECT_DOUBLE_EQ(found.reach[i], distance(points[i], points[expected.back()]));
-  }
-}
-
-TEST(NeighborhoodsTest, FewerPointsThanAskedFor) {
-  EXPECT_EQ(find_neighborhoods({}, 5, 1).size, 0U);
-  const Points points = shapes::cube_cloud(3);
-  EXPECT_EQ(find_neighborhoods(points, 5, 1).size, 2U);
 }
 
 }  // namespace

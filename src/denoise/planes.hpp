@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "denoise/neighborhoods.hpp"
+#include "base/neighborhoods.hpp"
 
 namespace morsel {
 

@@ -7,7 +7,7 @@
 
 #include "base/cancel.hpp"
 #include "base/test_shapes.hpp"
-#include "denoise/neighborhoods.hpp"
+#include "base/neighborhoods.hpp"
 #include "denoise/planes.hpp"
 
 namespace morsel {

@@ -9,7 +9,7 @@
 #include "base/quantile.hpp"
 #include "base/random.hpp"
 #include "base/union_find.hpp"
-#include "denoise/neighborhoods.hpp"
+#include "base/neighborhoods.hpp"
 #include "ground/plane.hpp"
 
 namespace morsel {

@@ -26,7 +26,7 @@ Labelled label(const Points& points, const InteriorOptions& options = {}) {
   Labelled result;
   result.complex = triangulate(points);
   const VertexCells vertex_cells = find_vertex_cells(result.complex);
-  const auto lambda = mean_neighbor_distance(result.complex, vertex_cells);
+  const auto lambda = mean_neighbor_distance(result.complex);
   result.interior = find_interior(result.complex, vertex_cells, lambda, options);
   return result;
 }

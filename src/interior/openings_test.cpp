@@ -18,7 +18,7 @@ constexpr double kUnitBall = 4.0 / 3.0 * std::numbers::pi;
 Interior label(const Points& points) {
   const DelaunayComplex complex = triangulate(points);
   const VertexCells vertex_cells = find_vertex_cells(complex);
-  return find_interior(complex, vertex_cells, mean_neighbor_distance(complex, vertex_cells));
+  return find_interior(complex, vertex_cells, mean_neighbor_distance(complex));
 }
 
 // Without the points above the plane z = height.
@@ -121,7 +121,7 @@ TEST(OpeningsTest, AHollowWithWallsIsNotFilled) {
 TEST(OpeningsTest, ThreadsChangeNothing) {
   const DelaunayComplex complex = triangulate(with_hole(cube(), {0.0, 0.0, 1.0}, 0.5));
   const VertexCells vertex_cells = find_vertex_cells(complex);
-  const auto lambda = mean_neighbor_distance(complex, vertex_cells);
+  const auto lambda = mean_neighbor_distance(complex);
   EXPECT_EQ(find_interior(complex, vertex_cells, lambda, {}, 1).side,
             find_interior(complex, vertex_cells, lambda, {}, 2).side);
 }

@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 #include "base/spatial_order.hpp"
-#include "denoise/neighborhoods.hpp"
+#include "base/neighborhoods.hpp"
 
 namespace morsel {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/spatial_order.hpp"
-#include "denoise/neighborhoods.hpp"
+#include "base/neighborhoods.hpp"
 #include "denoise/planes.hpp"
 #include "signature/landmarks.hpp"
 

@@ -24,7 +24,7 @@ inline Stages run_stages(const Points& points) {
   Stages s;
   s.complex = triangulate(points);
   s.vertex_cells = find_vertex_cells(s.complex);
-  s.lambda = mean_neighbor_distance(s.complex, s.vertex_cells);
+  s.lambda = mean_neighbor_distance(s.complex);
   s.interior = find_interior(s.complex, s.vertex_cells, s.lambda);
   s.basins = find_basins(s.complex, s.interior);
   return s;

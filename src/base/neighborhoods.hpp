@@ -1,4 +1,4 @@
-// The nearest neighbours of every point of a raw cloud, before there is a triangulation.
+// The nearest neighbours of every point of a cloud.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,25 @@
 
 namespace morsel {
 
-/// For each point its `size` nearest other points, nearest first, and how far they are.
+/// For each point its `size` nearest other points and how far they are; of equally near ones those
+/// with smaller indices.
 struct Neighborhoods {
   std::size_t size = 0;                ///< k, fewer than asked when there are not enough points
-  std::vector<std::uint32_t> indices;  ///< (n, k)
-  std::vector<double> reach;           ///< (n) distance to the last of them, in units
+  std::vector<std::uint32_t> indices;  ///< (n, k), in an order that depends on the points alone
+  std::vector<double> reach;           ///< (n) distance to the farthest of them, in units
 
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t point) const {
     return std::span(indices).subspan(point * size, size);
   }
 };
 
-/// `points` are distinct. Cost: O(n log n).
+/// `points` are distinct. The `inner` nearest come before the others. Cost: O(n log n).
 [[nodiscard]] Neighborhoods find_neighborhoods(std::span<const Vec3> points, std::size_t size,
-                                               int threads);
+                                               int threads, std::size_t inner);
+[[nodiscard]] inline Neighborhoods find_neighborhoods(std::span<const Vec3> points,
+                                                      std::size_t size, int threads) {
+  return find_neighborhoods(points, size, threads, size);
+}
 
 /// For each query the index of the nearest of `points`, which is not empty.
 [[nodiscard]] std::vector<std::uint32_t> find_nearest(std::span<const Vec3> points,
