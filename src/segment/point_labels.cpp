@@ -5,11 +5,14 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "base/threads.hpp"
 
 namespace morsel {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Basins that touch each basin, as one list with offsets.
 struct BasinGraph {
@@ -34,16 +37,29 @@ BasinGraph make_basin_graph(std::size_t count, const std::vector<Neck>& necks) {
   return graph;
 }
 
+// The maximum of each basin.
+struct Maximum {
+  Vec3 center;
+  double squared_radius;
+};
+
+std::vector<Maximum> maxima_of(const DelaunayComplex& complex, const Basins& basins) {
+  std::vector<Maximum> maxima;
+  maxima.reserve(basins.count());
+  for (const std::uint32_t cell : basins.maximum) {
+    maxima.push_back({complex.centers[cell], complex.radii[cell] * complex.radii[cell]});
+  }
+  return maxima;
+}
+
 // Squared (|p - c| / R) with ties to the smaller basin.
 struct BestBall {
-  double squared_ratio = std::numeric_limits<double>::infinity();
+  double squared_ratio = kInfinity;
   std::uint32_t basin = kNoBasin;
 
-  void offer(const DelaunayComplex& complex, const Basins& basins, const Vec3& p,
-             std::uint32_t candidate) {
-    const std::uint32_t cell = basins.maximum[candidate];
-    const double ratio =
-        squared_distance(p, complex.centers[cell]) / (complex.radii[cell] * complex.radii[cell]);
+  void offer(const std::vector<Maximum>& maxima, const Vec3& p, std::uint32_t candidate) {
+    const Maximum& maximum = maxima[candidate];
+    const double ratio = squared_distance(p, maximum.center) / maximum.squared_radius;
     if (ratio < squared_ratio || (ratio == squared_ratio && candidate < basin)) {
       squared_ratio = ratio;
       basin = candidate;
@@ -55,34 +71,39 @@ struct BestBall {
 // jumps along the long edges of the hull; ties by index.
 void spread_labels(const DelaunayComplex& complex, const VertexCells& vertex_cells,
                    std::vector<std::uint32_t>& basin_of_vertex) {
-  using Offer = std::tuple<double, std::uint32_t, std::uint32_t>;  // squared length, vertex, basin
+  using Edge = std::pair<double, std::uint32_t>;  // squared length, basin beyond it
+  using Offer = std::tuple<double, std::uint32_t, std::uint32_t>;  // the same, the vertex between
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers;
-  const auto offer_around = [&](std::uint32_t v) {
-    for (const std::uint32_t c : vertex_cells.of(v)) {
-      for (const std::uint32_t w : complex.cells[c]) {
-        if (basin_of_vertex[w] != kNoBasin) continue;
-        const double squared = squared_distance(complex.vertices[v], complex.vertices[w]);
-        offers.emplace(squared, w, basin_of_vertex[v]);
-      }
-    }
+  std::vector<Edge> best(basin_of_vertex.size(), Edge{kInfinity, kNoBasin});
+  const auto edge = [&](std::uint32_t from, std::uint32_t to) {
+    return Edge{squared_distance(complex.vertices[from], complex.vertices[to]),
+                basin_of_vertex[from]};
+  };
+  const auto offer_best = [&](std::uint32_t v) {
+    offers.emplace(best[v].first, v, best[v].second);
   };
   // Few vertices have no label, so they look for those that have one.
   for (std::uint32_t v = 0; v < basin_of_vertex.size(); ++v) {
     if (basin_of_vertex[v] != kNoBasin) continue;
     for (const std::uint32_t c : vertex_cells.of(v)) {
       for (const std::uint32_t w : complex.cells[c]) {
-        if (basin_of_vertex[w] == kNoBasin) continue;
-        const double squared = squared_distance(complex.vertices[v], complex.vertices[w]);
-        offers.emplace(squared, v, basin_of_vertex[w]);
+        if (basin_of_vertex[w] != kNoBasin) best[v] = std::min(best[v], edge(w, v));
       }
     }
+    if (best[v].second != kNoBasin) offer_best(v);
   }
   while (!offers.empty()) {
-    const auto [squared, v, basin] = offers.top();
+    const std::uint32_t v = std::get<1>(offers.top());
     offers.pop();
     if (basin_of_vertex[v] != kNoBasin) continue;
-    basin_of_vertex[v] = basin;
-    offer_around(v);
+    basin_of_vertex[v] = best[v].second;
+    for (const std::uint32_t c : vertex_cells.of(v)) {
+      for (const std::uint32_t w : complex.cells[c]) {
+        if (basin_of_vertex[w] != kNoBasin || !(edge(v, w) < best[w])) continue;
+        best[w] = edge(v, w);
+        offer_best(w);
+      }
+    }
   }
 }
 
@@ -94,6 +115,7 @@ std::vector<std::uint32_t> label_vertices(const DelaunayComplex& complex,
   std::vector<std::uint32_t> basin_of_vertex(complex.vertices.size(), kNoBasin);
   if (basins.count() == 0) return basin_of_vertex;
   const BasinGraph graph = make_basin_graph(basins.count(), necks);
+  const std::vector<Maximum> maxima = maxima_of(complex, basins);
   parallel_ranges(basin_of_vertex.size(), threads, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> touched;
     for (std::size_t v = begin; v < end; ++v) {
@@ -104,9 +126,9 @@ std::vector<std::uint32_t> label_vertices(const DelaunayComplex& complex,
       }
       BestBall best;
       for (const std::uint32_t b : touched) {
-        best.offer(complex, basins, complex.vertices[v], b);
+        best.offer(maxima, complex.vertices[v], b);
         for (std::uint32_t i = graph.offsets[b]; i < graph.offsets[b + 1]; ++i) {
-          best.offer(complex, basins, complex.vertices[v], graph.targets[i]);
+          best.offer(maxima, complex.vertices[v], graph.targets[i]);
         }
       }
       basin_of_vertex[v] = best.basin;
