@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <morsel/denoise.hpp>
 #include <morsel/error.hpp>
 #include <string>
+#include <utility>
 
 #include "base/neighborhoods.hpp"
 #include "base/quantile.hpp"
@@ -78,6 +80,32 @@ SpatialOrder keep_evenly(std::size_t count, const SpatialOrder& all, int threads
   return kept;
 }
 
+// For each point its place among those kept, or that of the nearest of them: one of its neighbours,
+// unless all of those are dropped too.
+std::vector<std::uint32_t> find_stand_ins(const std::vector<Vec3>& points,
+                                          const Neighborhoods& neighborhoods,
+                                          const std::vector<bool>& drop,
+                                          const std::vector<Vec3>& kept, int threads) {
+  std::vector<std::uint32_t> place(points.size());
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) place[i] = drop[i] ? 0 : next++;
+  std::vector<std::uint32_t> lonely;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (!drop[i]) continue;
+    std::pair nearest{std::numeric_limits<double>::infinity(), i};
+    for (const std::uint32_t j : neighborhoods.of(i)) {
+      if (!drop[j]) nearest = std::min(nearest, {squared_distance(points[i], points[j]), j});
+    }
+    place[i] = place[nearest.second];
+    if (nearest.second == i) lonely.push_back(i);
+  }
+  std::vector<Vec3> queries;
+  for (const std::uint32_t i : lonely) queries.push_back(points[i]);
+  const std::vector<std::uint32_t> found = find_nearest(kept, queries, threads);
+  for (std::size_t k = 0; k < lonely.size(); ++k) place[lonely[k]] = found[k];
+  return place;
+}
+
 Cleaned drop_outliers(std::span<const Vec3> input, std::size_t most, int threads) {
   constexpr double kFromCloud = 3.0;
   SpatialOrder order = sort_spatially(input, threads);
@@ -90,20 +118,8 @@ Cleaned drop_outliers(std::span<const Vec3> input, std::size_t most, int threads
   cleaned.spacing = quantile(select(neighborhoods.reach, drop), 0.5);
   const Planes planes = fit_planes(order.points, neighborhoods, kNeighbors, threads);
   cleaned.noise = estimate_noise(select(planes.residual, drop));
-  std::vector<std::uint32_t> target(order.points.size());
-  std::vector<Vec3> lonely;
-  std::uint32_t next = 0;
-  for (std::size_t i = 0; i < order.points.size(); ++i) {
-    if (drop[i]) {
-      lonely.push_back(order.points[i]);
-    } else {
-      target[i] = next++;
-    }
-  }
-  const std::vector<std::uint32_t> nearest = find_nearest(cleaned.points, lonely, threads);
-  for (std::size_t i = 0, k = 0; i < order.points.size(); ++i) {
-    if (drop[i]) target[i] = nearest[k++];
-  }
+  const std::vector<std::uint32_t> target =
+      find_stand_ins(order.points, neighborhoods, drop, cleaned.points, threads);
   for (std::size_t i = 0; i < input.size(); ++i) {
     const std::uint32_t own = order.order_of_point[i];
     cleaned.stand_in.push_back(target[own]);

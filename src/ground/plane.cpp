@@ -2,7 +2,9 @@
 #include "ground/plane.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -36,9 +38,39 @@ Support support_of(std::span<const Vec3> points, const GroundPlane& plane) {
   return support;
 }
 
+// A few points, each coordinate by itself: many planes are held against them.
+class Jury {
+ public:
+  explicit Jury(const std::vector<Vec3>& points) {
+    for (const Vec3& p : points) {
+      x_.push_back(p.x);
+      y_.push_back(p.y);
+      z_.push_back(p.z);
+    }
+  }
+
+  // As support_of(), in a loop without branches.
+  [[nodiscard]] Support support_of(const GroundPlane& plane) const {
+    const auto is_negative = [](double value) { return std::bit_cast<std::uint64_t>(value) >> 63; };
+    const auto [nx, ny, nz] = plane.normal;
+    std::uint64_t above = 0;
+    std::uint64_t beneath = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const double height = nx * x_[i] + ny * y_[i] + nz * z_[i] - plane.offset;
+      above += is_negative(plane.thickness - height);
+      beneath += is_negative(height + plane.thickness);
+    }
+    return {static_cast<double>(x_.size() - above - beneath), static_cast<double>(above),
+            static_cast<double>(beneath)};
+  }
+
+ private:
+  std::vector<double> x_, y_, z_;
+};
+
 // Of planes through three random points that for which most speaks.
 std::optional<GroundPlane> guess_plane(std::span<const Vec3> points, double reach) {
-  const std::vector<Vec3> jury = evenly_chosen(points, kJury);
+  const Jury jury(evenly_chosen(points, kJury));
   Random random(1);
   const auto pick = [&] { return points[random.below(points.size())]; };
   std::optional<GroundPlane> best;
@@ -51,7 +83,7 @@ std::optional<GroundPlane> guess_plane(std::span<const Vec3> points, double reac
     if (!(length > 0.0)) continue;
     GroundPlane plane{(1.0 / length) * normal, 0.0, reach};
     plane.offset = dot(plane.normal, a);
-    const Support support = support_of(jury, plane);
+    const Support support = jury.support_of(plane);
     const double value = support.on - std::min(support.above, support.beneath);
     if (value <= most) continue;
     most = value;
