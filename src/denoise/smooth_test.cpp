@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <morsel/error.hpp>
 
 #include "base/cancel.hpp"
-#include "base/test_shapes.hpp"
 #include "base/neighborhoods.hpp"
+#include "base/quantile.hpp"
+#include "base/test_shapes.hpp"
 #include "denoise/planes.hpp"
 
 namespace morsel {
@@ -35,6 +37,67 @@ Points wall(std::size_t count, double thickness) {
         {2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0, i % 2 == 0 ? 0.0 : thickness});
   }
   return points;
+}
+
+// One round, rule by rule as in docs/method.md, in doubles.
+Points round_by_the_book(const Points& points) {
+  const Neighborhoods near = find_neighborhoods(points, 40, 1, 24);
+  const Planes planes = fit_planes(points, near, std::min<std::size_t>(24, near.size), 1);
+  const double s = 2.0 * quantile(planes.residual, 0.5);
+  const auto weight = [&](std::size_t i, const Vec3& d, double cosine, double height) {
+    const double h = 0.5 * near.reach[i];
+    const double turn = 1.0 - std::abs(cosine);
+    const double x = squared_norm(d) / (2.0 * h * h) + turn * turn / (2.0 * 0.3 * 0.3) +
+                     height * height / (2.0 * s * s);
+    return std::pow(std::max(1.0 - x / 8.0, 0.0), 8);
+  };
+  Points normals = planes.normal;
+  for (int filtering = 0; filtering < 3; ++filtering) {
+    Points filtered;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Vec3 sum = normals[i];
+      for (const std::uint32_t j : near.of(i)) {
+        const Vec3 d = points[j] - points[i];
+        const double cosine = dot(normals[i], normals[j]);
+        sum = sum + weight(i, d, cosine, dot(normals[i], d)) * cosine * normals[j];
+      }
+      filtered.push_back((1.0 / norm(sum)) * sum);
+    }
+    normals = filtered;
+  }
+  Points moved;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    double total = 1.0;
+    double sum = 0.0;
+    for (const std::uint32_t j : near.of(i)) {
+      const Vec3 d = points[j] - points[i];
+      const double cosine = dot(normals[i], normals[j]);
+      const double sign = cosine < 0.0 ? -1.0 : 1.0;
+      const double height = 0.5 * (dot(normals[i], d) + sign * dot(normals[j], d));
+      total += weight(i, d, cosine, height);
+      sum += weight(i, d, cosine, height) * height;
+    }
+    moved.push_back(points[i] + (sum / total) * normals[i]);
+  }
+  return moved;
+}
+
+TEST(SmoothTest, ARoundIsWhatTheRulesSay) {
+  // Of few points all are neighbours, whose number is no multiple of four.
+  for (const std::size_t count : {20, 31, 2000}) {
+    const Points points = shapes::noisy(shapes::sphere(count, {5.0, 0.0, -3.0}, 2.0), 0.04);
+    const Points expected = round_by_the_book(points);
+    const Points found = smoothed(points, 1);
+    for (std::size_t i = 0; i < count; ++i) EXPECT_LT(distance(found[i], expected[i]), 1e-5) << i;
+  }
+}
+
+TEST(SmoothTest, FewPointsCanBeSmoothedAgainAndAgain) {
+  for (std::size_t count = 0; count < 45; ++count) {
+    for (const Vec3& p : smoothed(shapes::noisy(shapes::sphere(count), 0.02), 3)) {
+      EXPECT_TRUE(is_finite(p)) << count;
+    }
+  }
 }
 
 TEST(SmoothTest, CurvedSurfacesAreNotPulledIn) {
