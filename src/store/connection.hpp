@@ -48,7 +48,8 @@ class LostConnection : public Error {
 struct Schema {
   int oldest;  ///< version that can be brought up to date
   const char* const*
-      steps;  ///< the first makes the tables of `oldest`, each other the next version
+      steps;            ///< the first makes the tables of `oldest`, each other the next version
+  const char* own_ids;  ///< what comes before VALUES where a row is given its id
 };
 
 /// A connection is not for several threads at once. All functions throw Error as Database does.

@@ -206,12 +206,19 @@ std::optional<std::int64_t> find_data(Connection& connection, const std::string&
 std::int64_t insert_data(Connection& connection, const ShapeData& data) {
   if (const auto known = find_data(connection, data.content)) return *known;
   const DataBytes bytes = bytes_of(data);
+  const std::int64_t checksum = checksum_of(data, bytes);
+  // Rows are appended, but how far behind the last one depends on what they hold. So the rows of
+  // shapes that refer to them, their checksums and the digest of these differ wherever contents do,
+  // also between two databases with the same names, and a search block of the one is not of the
+  // other.
+  constexpr std::int64_t kMostGap = 0xffffffff;
   return connection
-      .integer(
-          "INSERT INTO signatures (content, options, points, signature, sketch, checksum) "
-          "VALUES (?1, ?2, ?3, ?4, ?5, ?6) RETURNING id",
-          {data.content, data.options, static_cast<std::int64_t>(data.points),
-           Blob(bytes.signature), Blob(bytes.sketch), checksum_of(data, bytes)})
+      .integer(fmt::format("INSERT INTO signatures (id, content, options, points, signature, "
+                           "sketch, checksum) {}VALUES ((SELECT COALESCE(max(id), 0) FROM "
+                           "signatures) + 1 + ?7, ?1, ?2, ?3, ?4, ?5, ?6) RETURNING id",
+                           connection.schema().own_ids),
+               {data.content, data.options, static_cast<std::int64_t>(data.points),
+                Blob(bytes.signature), Blob(bytes.sketch), checksum, checksum & kMostGap})
       .value();
 }
 

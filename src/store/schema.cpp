@@ -175,8 +175,8 @@ CREATE TRIGGER signature_changed AFTER UPDATE ON morsel.signatures
 
 }  // namespace
 
-const Schema kSqliteSchema{kOldestSqlite, kSqliteSteps.data()};
-const Schema kPostgresSchema{kOldestPostgres, kPostgresSteps.data()};
+const Schema kSqliteSchema{kOldestSqlite, kSqliteSteps.data(), ""};
+const Schema kPostgresSchema{kOldestPostgres, kPostgresSteps.data(), "OVERRIDING SYSTEM VALUE "};
 
 int check_version(Connection& connection) {
   const int version = connection.version();
@@ -200,9 +200,9 @@ void migrate(Connection& connection) {
   // Another process may have done it while this one waited for its turn.
   const int version = check_version(connection);
   if (version == kSchemaVersion) return;
-  const auto& [oldest, steps] = connection.schema();
-  for (int to = version == 0 ? oldest : version + 1; to <= kSchemaVersion; ++to) {
-    connection.run_script(steps[to - oldest]);
+  const Schema& schema = connection.schema();
+  for (int to = version == 0 ? schema.oldest : version + 1; to <= kSchemaVersion; ++to) {
+    connection.run_script(schema.steps[to - schema.oldest]);
   }
   connection.set_version(kSchemaVersion);
   transaction.commit();
