@@ -24,7 +24,8 @@ export UBSAN_OPTIONS=print_stacktrace=1
 export ASAN_SYMBOLIZER_PATH=${ASAN_SYMBOLIZER_PATH:-$(command -v llvm-symbolizer-16 || true)}
 [[ -d /dev/shm ]] && export TMPDIR=/dev/shm # databases are written to disk at every change
 
-# The processor time counts, however busy the machine is: as many slices as it takes.
+# The processor time counts, however busy the machine is: as many slices as it takes. Each is as long as what
+# is left, since a slice begins by running all that was learned.
 TIMEFORMAT='%U %S'
 for target in "${targets[@]}"; do
   learned=build/fuzz/corpus/$target
@@ -32,7 +33,7 @@ for target in "${targets[@]}"; do
   mkdir -p "$learned"
   used=0 runs=0
   while ((used < seconds)); do
-    slice=$((seconds - used < 60 ? seconds - used : 60))
+    slice=$((seconds - used > 30 ? seconds - used : 30))
     if ! { time "$program" "--target=$target" -max_total_time="$slice" -timeout=120 \
       -rss_limit_mb=3000 -max_len=20000 -print_final_stats=1 -verbosity=1 \
       -artifact_prefix="$findings/$target-" "$learned" "fuzz/corpus/$target" tests/corpus/bad \
