@@ -47,11 +47,16 @@ class Handed {
 
   template <typename... Arguments>
   void operator()(Arguments&&... arguments) const {
+    const DoneScope done;
     arrived().task_(std::forward<Arguments>(arguments)...);
-    __tsan_release(&tasks_done);
   }
 
  private:
+  // Tells it of a task that ends by an exception too.
+  struct DoneScope {
+    DoneScope() {}
+    ~DoneScope() { __tsan_release(&tasks_done); }
+  };
   const Handed& arrived() const {
     __tsan_acquire(const_cast<Handed*>(this));
     return *this;

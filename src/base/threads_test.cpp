@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <morsel/error.hpp>
@@ -134,6 +135,25 @@ TEST(ThreadsTest, WhatATaskDoesStopsWithItsGiver) {
     }
     tasks.wait();
     EXPECT_EQ(stopped, 100);
+  }
+}
+
+// For the thread sanitizer, which must be told of tasks that end by an exception too.
+TEST(ThreadsTest, WhatWasWrittenBeforeTheStopIsTheGivers) {
+  constexpr std::size_t kRows = 20000;
+  for (const int threads : {1, 2, 5}) {
+    Progress progress;
+    const CancelScope scope(&progress);
+    std::vector<int> written(kRows, 0);
+    EXPECT_THROW(parallel_rows(kRows, threads,
+                               [&](std::size_t i) {
+                                 written[i] = 1;
+                                 if (i == kRows / 4 * 3) progress.cancel();
+                                 check_cancelled();
+                               }),
+                 Error);
+    EXPECT_GT(std::ranges::count(written, 1), 0);
+    EXPECT_LT(std::ranges::count(written, 1), static_cast<std::ptrdiff_t>(kRows));
   }
 }
 
