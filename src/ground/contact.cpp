@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "base/box.hpp"
+#include "base/neighborhoods.hpp"
 #include "base/quantile.hpp"
 #include "base/random.hpp"
 #include "base/union_find.hpp"
-#include "base/neighborhoods.hpp"
 #include "ground/plane.hpp"
 
 namespace morsel {

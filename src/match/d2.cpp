@@ -4,9 +4,9 @@
 #include <morsel/error.hpp>
 #include <string>
 
+#include "base/neighborhoods.hpp"
 #include "base/random.hpp"
 #include "base/spatial_order.hpp"
-#include "base/neighborhoods.hpp"
 
 namespace morsel {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include "base/spatial_order.hpp"
 #include "base/neighborhoods.hpp"
+#include "base/spatial_order.hpp"
 #include "denoise/planes.hpp"
 #include "signature/landmarks.hpp"
 
