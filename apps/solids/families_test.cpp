@@ -14,7 +14,7 @@ constexpr std::uint64_t kMembers = 12;
 
 // Whether the pieces hang together, as morsel sees it.
 bool is_one_object(const Member& member) {
-  const LabelledPoints cloud = sample_member(member, {.count = 3000, .noise = 0.001});
+  const LabelledPoints cloud = sample_member(member, {.count = 6000, .noise = 0.001});
   return segment(cloud.points).tree.component_count == 1;
 }
 

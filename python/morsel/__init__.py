@@ -5,7 +5,7 @@
     >>> shape                                   # in Jupyter: the parts in 3D
     <morsel.Segmentation: 4000 points, 2 parts>
     >>> shape.labels[:3]                        # part of each point
-    array([1, 0, 1], dtype=int32)
+    array([0, 1, 0], dtype=int32)
 
 Everything here is the same library as the program `morsel` and gives the same results.
 Lengths are in the unit of the points, volumes in its cube.

@@ -15,7 +15,7 @@ namespace {
 //         + ln(ratio / kNoNeck)⁺ + kThicknessWeight · |Δ ln thickness|
 //         + kNarrowWeight · ln(π thickness² / contact)⁺ + kCreaseWeight · concavity²)
 //        · (20 · share of the smaller side)^kSizePower
-//        · (4 · thickness of the thicker side / radius of the object)^kBulkPower
+//        · min(3 · thickness of the thicker side / radius of the object, 1)^kBulkPower
 // tuned on the development shapes with ids ≡ 1 mod 4, confirmed on ≡ 3 mod 4 (docs/method.md).
 constexpr double kNoNeck = 1.017;
 constexpr double kMostRatio = 5.0;
@@ -28,7 +28,7 @@ constexpr double kLeastContact = 1e-6;
 constexpr double kCreaseWeight = 0.17;
 constexpr double kSizePower = 0.2;
 constexpr double kBulkPower = 0.25;
-constexpr double kNaturalCost = 0.59;
+constexpr double kNaturalCost = 0.55;
 
 double ratio_of_cost(double cost) { return std::exp(std::max(cost, 0.0)); }
 
@@ -111,7 +111,7 @@ class Agglomeration {
             neck + kThicknessWeight * thickness + kNarrowWeight * narrow +
             kCreaseWeight * concavity * concavity) *
            std::pow(20.0 * share, kSizePower) *
-           std::pow(4.0 * thicker / object_radius_[a], kBulkPower);
+           std::pow(std::min(3.0 * thicker / object_radius_[a], 1.0), kBulkPower);
   }
 
   // What joining a with each group beside it costs; only the other one of a pair's two entries,

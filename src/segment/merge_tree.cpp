@@ -22,7 +22,7 @@ namespace morsel {
 namespace {
 
 // A piece or group of pieces with a smaller share of its object's points is no part of its own.
-constexpr double kSmallestShare = 0.005;
+constexpr double kSmallestShare = 0.0075;
 // Sampling moves the radii of maxima and necks by up to this share of the spacing.
 constexpr double kRadiusTolerance = 0.25;
 

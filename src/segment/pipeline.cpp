@@ -213,9 +213,8 @@ Attempt attempt(std::span<const Vec3> points, const Ground& ground, std::size_t 
     return complex;
   });
   a.vertex_cells = find_vertex_cells(a.complex);
-  a.lambda = stages.run("neighbors", 0.7, [&] {
-    return mean_neighbor_distance(a.complex, options.threads);
-  });
+  a.lambda = stages.run("neighbors", 0.7,
+                        [&] { return mean_neighbor_distance(a.complex, options.threads); });
   a.interior = stages.run("interior", 0.75, [&] {
     return find_interior(a.complex, a.vertex_cells, a.lambda, options.interior, options.threads);
   });

@@ -81,7 +81,7 @@ TEST(SightTest, FarPairsDoNotCount) {
   const std::vector<std::uint32_t> seeds{s.basins.maximum.front(), s.basins.maximum.back()};
   const double apart =
       distance(cell_centroid(s.complex, seeds[0]), cell_centroid(s.complex, seeds[1]));
-  const SightTable table = look_around(s, seeds, apart / 0.8, 0.1, 1);
+  const SightTable table = look_around(s, seeds, apart / 1.1, 0.1, 1);
   EXPECT_EQ(table.weight[1], 0.0F);
   EXPECT_EQ(table.weight[0], 1.0F);
 }
