@@ -30,18 +30,40 @@ double concavity_of(const DelaunayComplex& complex, const VertexCells& vertex_ce
   return std::min(std::log1p(inner / outer), kMostConcave);  // also where nothing is outer
 }
 
+// A crease is one for all samples near its bottom, a slit between two layers of a scan only for
+// those of the layer below.
+double least_around(const DelaunayComplex& complex, const VertexCells& vertex_cells, double lambda,
+                    std::uint32_t vertex, const std::vector<double>& own) {
+  constexpr double kNear = 1.5;
+  const double squared_reach = kNear * kNear * lambda * lambda;
+  double least = own[vertex];
+  for (const std::uint32_t c : vertex_cells.of(vertex)) {
+    for (const std::uint32_t w : complex.cells[c]) {
+      const double squared = squared_distance(complex.vertices[vertex], complex.vertices[w]);
+      if (squared <= squared_reach) least = std::min(least, own[w]);
+    }
+  }
+  return least;
+}
+
 }  // namespace
 
 std::vector<double> vertex_concavity(const DelaunayComplex& complex,
                                      const VertexCells& vertex_cells, const Interior& interior,
-                                     int threads) {
-  std::vector<double> concavity(complex.vertices.size());
-  parallel_ranges(concavity.size(), threads, [&](std::size_t begin, std::size_t end) {
+                                     const std::vector<double>& lambda, int threads) {
+  std::vector<double> own(complex.vertices.size());
+  parallel_ranges(own.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      concavity[v] = concavity_of(complex, vertex_cells, interior, static_cast<std::uint32_t>(v));
+      own[v] = concavity_of(complex, vertex_cells, interior, static_cast<std::uint32_t>(v));
     }
   });
-  return concavity;
+  std::vector<double> least(own);
+  parallel_ranges(own.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      least[v] = least_around(complex, vertex_cells, lambda[v], static_cast<std::uint32_t>(v), own);
+    }
+  });
+  return least;
 }
 
 }  // namespace morsel

@@ -7,8 +7,9 @@
 
 namespace morsel {
 
-/// (v) min(ln(1 + inner / outer), kMostConcave) of the radii of the largest inner and the largest
-/// outer ball that touch each vertex: 0 where the surface is convex (on the hull the outer ball is
+/// (v) ln(1 + inner / outer) of the radii of the largest inner and the largest outer ball that
+/// touch a vertex, at most kMostConcave, and of that the least among the vertex and its Delaunay
+/// neighbours within 1.5 λ (`lambda`): 0 where the surface is convex (on the hull the outer ball is
 /// unbounded) or no inner cell meets, ln 2 where the gap beyond is as wide as the shape is thick,
 /// large at the bottom of a sharp crease. Needs no normals and does not change with scale.
 /// Cost: O(c).
@@ -16,7 +17,8 @@ namespace morsel {
 /// Voronoi Filtering", Discrete & Computational Geometry 1999.
 [[nodiscard]] std::vector<double> vertex_concavity(const DelaunayComplex& complex,
                                                    const VertexCells& vertex_cells,
-                                                   const Interior& interior, int threads);
+                                                   const Interior& interior,
+                                                   const std::vector<double>& lambda, int threads);
 
 /// No vertex is more concave: sampling decides how small a ball fits into the bottom of a crease.
 inline constexpr double kMostConcave = 3.0;

@@ -14,7 +14,7 @@ namespace {
 using shapes::Stages;
 
 std::vector<double> concavity_of(const Stages& s, int threads = 1) {
-  return vertex_concavity(s.complex, s.vertex_cells, s.interior, threads);
+  return vertex_concavity(s.complex, s.vertex_cells, s.interior, s.lambda, threads);
 }
 
 TEST(ConcavityTest, AConvexShapeHasNone) {
@@ -60,6 +60,14 @@ TEST(ConcavityTest, ACreaseIsMoreConcaveThanItsSurroundings) {
   }
   EXPECT_GT(in_crease, 1.0);
   EXPECT_EQ(elsewhere, 0.0);
+}
+
+// Two scans of one ball that do not quite fit: slits between their layers are no creases.
+TEST(ConcavityTest, LayersOfAScanAreNoCreases) {
+  const Stages s =
+      shapes::run_stages(shapes::joined(shapes::sphere(4000), shapes::sphere(4000, {}, 1.01, 2)));
+  const std::vector<double> concavity = concavity_of(s);
+  EXPECT_LT(std::ranges::count_if(concavity, [](double c) { return c > 0.5; }), 800);
 }
 
 TEST(ConcavityTest, DoesNotChangeWithScaleOrThreads) {
