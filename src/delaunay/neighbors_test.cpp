@@ -33,8 +33,7 @@ void expect_as_brute_force(const Points& points) {
   const DelaunayComplex complex = triangulate(points);
   const std::vector<double> expected = brute_force(complex.vertices);
   for (const int threads : {1, 2}) {
-    const std::vector<double> lambda =
-        mean_neighbor_distance(complex, threads);
+    const std::vector<double> lambda = mean_neighbor_distance(complex, threads);
     ASSERT_EQ(lambda.size(), expected.size());
     for (std::size_t i = 0; i < lambda.size(); ++i) {
       EXPECT_NEAR(lambda[i], expected[i], 1e-12 * expected[i]) << i;
