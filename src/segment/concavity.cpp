@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/threads.hpp"
+#include "interior/poles.hpp"
 
 namespace morsel {
 namespace {
@@ -19,15 +19,19 @@ bool touches_hull(const DelaunayComplex& complex, std::uint32_t cell, std::uint3
 
 double concavity_of(const DelaunayComplex& complex, const VertexCells& vertex_cells,
                     const Interior& interior, std::uint32_t vertex) {
-  double inner = 0.0;
-  double outer = 0.0;
   for (const std::uint32_t c : vertex_cells.of(vertex)) {
     if (touches_hull(complex, c, vertex)) return 0.0;
-    double& largest = interior.side[c] == CellSide::kInner ? inner : outer;
-    largest = std::max(largest, complex.radii[c]);
   }
+  const auto largest_radius = [&](bool inner) {
+    const std::uint32_t c = largest_ball(complex, vertex_cells, vertex, [&](std::uint32_t other) {
+      return (interior.side[other] == CellSide::kInner) == inner;
+    });
+    return c == kNoCell ? 0.0 : complex.radii[c];
+  };
+  const double inner = largest_radius(true);
   if (!(inner > 0.0)) return 0.0;
-  return std::min(std::log1p(inner / outer), kMostConcave);  // also where nothing is outer
+  return std::min(std::log1p(inner / largest_radius(false)),
+                  kMostConcave);  // also if none is outer
 }
 
 // A crease is one for all samples near its bottom, a slit between two layers of a scan only for
