@@ -60,8 +60,9 @@ class CliTest(unittest.TestCase):
         self.assertEqual(done.stdout, b"")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
 
-    def run_on_terminal(self, start):
-        """Runs what start(terminal) starts to success and returns what the terminal was sent."""
+    def run_on_terminal(self, start, watch=lambda process, shown: None, status=DONE):
+        """Runs what start(terminal) starts until it ends with the status; returns what the terminal
+        was sent. watch(process, shown) is called whenever more has been."""
         outer, inner = pty.openpty()
         process = start(inner)
         os.close(inner)
@@ -69,10 +70,11 @@ class CliTest(unittest.TestCase):
         try:
             while chunk := os.read(outer, 4096):
                 shown += chunk
+                watch(process, shown)
         except OSError:  # the end of a terminal on Linux
             pass
         os.close(outer)
-        self.assertEqual(process.wait(timeout=60), DONE)
+        self.assertEqual(process.wait(timeout=60), status, shown)
         return shown
 
     def labels(self, name="labels.txt"):
