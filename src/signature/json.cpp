@@ -1,5 +1,7 @@
 // A signature as JSON, and back.
 
+#include "base/json.hpp"
+
 #include <cstdint>
 #include <limits>
 #include <morsel/error.hpp>
@@ -16,14 +18,13 @@ constexpr int kJsonVersion = 1;
 
 Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
-// A whole number; JSON's own conversion cuts fractions off and is undefined for what is too large.
 template <typename Integer>
 Integer integer_from_json(const Json& json, const std::string& prefix) {
-  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<Integer>::max());
-  if (json.is_number_unsigned() && json.get<std::uint64_t>() <= kMost) return json.get<Integer>();
+  if (const auto number = whole_number<Integer>(json)) return *number;
   throw Error(ErrorCode::kInput,
               prefix + "not a signature: " + (json.is_number() ? json.dump() : json.type_name()) +
-                  " where a whole number from 0 to " + std::to_string(kMost) + " is expected");
+                  " where a whole number from 0 to " +
+                  std::to_string(std::numeric_limits<Integer>::max()) + " is expected");
 }
 
 Vec3 vector_from_json(const Json& json) {

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <morsel/database.hpp>
 #include <morsel/error.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/base64.hpp"
+#include "base/json.hpp"
 #include "store/rows.hpp"
 #include "store/state.hpp"
 
@@ -44,15 +46,27 @@ Json parse_object(const std::string& line, const std::string& place) {
   return json;
 }
 
-template <class Value>
-Value field(const Json& json, const char* name, const std::string& place) {
+const Json& present(const Json& json, const char* name, const std::string& place) {
   const auto at = json.find(name);
   if (at == json.end()) fail(place, fmt::format("lacks the field \"{}\"", name));
+  return *at;
+}
+
+template <class Value>
+Value field(const Json& json, const char* name, const std::string& place) {
+  const Json& value = present(json, name, place);
   try {
-    return at->get<Value>();
+    return value.get<Value>();
   } catch (const Json::exception&) {
     fail(place, fmt::format("the field \"{}\" is of another type than export writes", name));
   }
+}
+
+template <class Integer>
+Integer number_field(const Json& json, const char* name, const std::string& place) {
+  if (const auto number = whole_number<Integer>(present(json, name, place))) return *number;
+  fail(place, fmt::format("the field \"{}\" is not a whole number from 0 to {}", name,
+                          std::numeric_limits<Integer>::max()));
 }
 
 std::string bytes_field(const Json& json, const char* name, const std::string& place) {
@@ -62,7 +76,7 @@ std::string bytes_field(const Json& json, const char* name, const std::string& p
 }
 
 void check_header(const std::string& line, const std::string& place) {
-  const int version = field<int>(parse_object(line, place), kHeaderField, place);
+  const int version = number_field<int>(parse_object(line, place), kHeaderField, place);
   if (version == kVersion) return;
   fail(place,
        fmt::format("version {} of the lines; this program knows version {}", version, kVersion));
@@ -81,7 +95,8 @@ StoredShape shape_of(const std::string& line, const std::string& place) {
     fail(place, "the field \"content\" is not 32 hexadecimal digits");
   }
   shape.data.options = field<std::string>(json, "options", place);
-  shape.data.points = field<std::uint64_t>(json, "points", place);
+  shape.data.points = static_cast<std::uint64_t>(
+      number_field<std::int64_t>(json, "points", place));  // as rows hold it
   shape.data.signature = signature_from_json(field<Json>(json, "signature", place).dump(), place);
   shape.data.sketch = decode_sketch(bytes_field(json, "sketch", place), place + ": sketch");
   return shape;

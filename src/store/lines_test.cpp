@@ -81,8 +81,13 @@ TEST_P(LinesTest, BadLinesAreNamedAndNothingIsStored) {
   EXPECT_EQ(refuse(database, "{\"morsel_shapes\":7}\n").find("lines:1: version 7"), 0U);
   EXPECT_EQ(refuse(database, head + line + "{").find("lines:3: is not a JSON object"), 0U);
   EXPECT_EQ(refuse(database, changed("\"tags\"", "\"bags\"")).find("lines:3: lacks"), 0U);
-  EXPECT_EQ(refuse(database, changed("\"points\":1500", "\"points\":\"many\"")).find("lines:3: "),
-            0U);
+  for (const char* points : {"\"many\"", "-1", "1.5", "9223372036854775808", "6.7e40"}) {
+    EXPECT_EQ(refuse(database, changed("\"points\":1500", std::string("\"points\":") + points)),
+              "lines:3: the field \"points\" is not a whole number from 0 to 9223372036854775807")
+        << points;
+  }
+  EXPECT_EQ(refuse(database, "{\"morsel_shapes\":6.7e40}\n"),
+            "lines:1: the field \"morsel_shapes\" is not a whole number from 0 to 2147483647");
   EXPECT_EQ(refuse(database, changed("\"sketch\":\"", "\"sketch\":\"*")).find("lines:3: "), 0U);
   EXPECT_EQ(refuse(database, changed("\"content\":\"", "\"content\":\"Z")).find("lines:3: "), 0U);
   EXPECT_EQ(database.size(), 0U);
