@@ -32,7 +32,7 @@ struct Column {
 // need to be kept.
 class Tree {
  public:
-  explicit Tree(std::span<const Vec3> points);
+  Tree(std::span<const Vec3> points, double scale);
 
   [[nodiscard]] std::size_t leaf_count() const { return std::size_t{1} << depth_; }
   [[nodiscard]] std::size_t begin_of_leaf(std::size_t leaf) const {
@@ -57,11 +57,11 @@ class Tree {
   std::vector<Box> boxes_;  // of the nodes, from 1; the leaves come last
 };
 
-Tree::Tree(std::span<const Vec3> points) {
+Tree::Tree(std::span<const Vec3> points, double scale) {
   while ((points.size() - 1) >> depth_ >= kLeafPoints) ++depth_;
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    entries[i] = {points[i], static_cast<std::uint32_t>(i)};
+    entries[i] = {scale * points[i], static_cast<std::uint32_t>(i)};
   }
   boxes_.resize(2 * leaf_count());
   column_.resize(points.size());
@@ -161,8 +161,8 @@ std::optional<double> find_threshold(std::span<const double> values, std::size_t
 // Finds the neighbours of the points of one leaf after the other, on one thread.
 class Search {
  public:
-  Search(const Tree& tree, std::size_t inner, Neighborhoods& found)
-      : tree_(tree), inner_(inner), found_(found) {}
+  Search(const Tree& tree, double scale, std::size_t inner, Neighborhoods& found)
+      : tree_(tree), scale_(scale), inner_(inner), found_(found) {}
 
   // Of the points from begin to end along the tree's leaves.
   void visit(std::size_t begin, std::size_t end);
@@ -188,12 +188,19 @@ class Search {
   std::size_t find_near(const Vec3& center, double radius, double& reach);
   void find(std::size_t i, std::size_t near, double reach, double apart);
 
-  // A bound is wider than computed by more than the rounding.
-  static constexpr double kMargin = 1.000001;
+  // The square of both lengths together, wider than computed by more than the rounding, also where
+  // squares are so small that they lose digits.
+  [[nodiscard]] static double bound(double a, double b) {
+    constexpr double kMargin = 1.000001;
+    constexpr double kLeast = 1e-140;
+    const double sum = a + b + kLeast;
+    return kMargin * sum * sum;
+  }
   // A leaf is halved when it is so many times wider than the neighbourhood of its middle.
   static constexpr double kWide = 4.0;
 
   const Tree& tree_;
+  double scale_;  // of the tree, over that of the cloud
   std::size_t inner_;
   Neighborhoods& found_;
   Column near_;  // holds the neighbours of all points of a leaf
@@ -240,12 +247,11 @@ Search::Cut Search::find_cut(std::size_t count, std::size_t wanted, double guess
 // Gathers the points within `reach` and twice `radius` of the center, where `reach` is first
 // brought down to what it takes to hold enough. Returns how many there are.
 std::size_t Search::find_near(const Vec3& center, double radius, double& reach) {
-  const auto bound = [&] { return kMargin * (reach + 2.0 * radius) * (reach + 2.0 * radius); };
-  const std::size_t count = tree_.collect(center, bound(), near_);
+  const std::size_t count = tree_.collect(center, bound(reach, 2.0 * radius), near_);
   measure(center, near_, 0, count);
   const auto least = find_threshold({squared_.data(), count}, found_.size + 1, reach * reach);
   if (least) reach = std::min(reach, std::sqrt(*least));
-  const double most = bound();
+  const double most = bound(reach, 2.0 * radius);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
     near_.x[kept] = near_.x[i];
@@ -300,7 +306,7 @@ void Search::find(std::size_t i, std::size_t near, double reach, double apart) {
   measure(place(i), near_, 0, near);
   double* squared = squared_.data();
   std::uint32_t* index = index_.data();
-  const double most = kMargin * (reach + apart) * (reach + apart);
+  const double most = bound(reach, apart);
   std::size_t count = keep(squared, index, near_.index.data(), near,
                            [most](double value, std::uint32_t) { return value <= most; });
   const Cut outer = find_cut(count, found_.size + 1, reach * reach);
@@ -314,7 +320,18 @@ void Search::find(std::size_t i, std::size_t near, double reach, double apart) {
   for (std::size_t j = 0; j < count; ++j) {
     to[at[inner.takes(squared[j], index[j]) ? 1 : 0]++] = index[j];
   }
-  found_.reach[self] = std::sqrt(*std::max_element(squared, squared + count));
+  found_.reach[self] = std::sqrt(*std::max_element(squared, squared + count)) / scale_;
+}
+
+// Brings the largest coordinate near 1, so that squares neither overflow nor vanish. A power of
+// two: nothing is rounded.
+double scale_of(std::span<const Vec3> points) {
+  double largest = 0.0;
+  for (const Vec3& p : points) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  constexpr int kMost = 1000;
+  return largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -kMost, kMost)) : 1.0;
 }
 
 }  // namespace
@@ -327,10 +344,11 @@ Neighborhoods find_neighborhoods(std::span<const Vec3> points, std::size_t size,
   result.reach.resize(points.size());
   if (result.size == 0) return result;
   constexpr std::size_t kLeavesARow = 256;
-  const Tree tree(points);
+  const double scale = scale_of(points);
+  const Tree tree(points, scale);
   const std::size_t rows = (tree.leaf_count() + kLeavesARow - 1) / kLeavesARow;
   parallel_rows(rows, threads, [&](std::size_t row) {
-    Search search(tree, std::min(inner, result.size), result);
+    Search search(tree, scale, std::min(inner, result.size), result);
     const std::size_t end = std::min((row + 1) * kLeavesARow, tree.leaf_count());
     for (std::size_t leaf = row * kLeavesARow; leaf < end; ++leaf) {
       search.visit(tree.begin_of_leaf(leaf), tree.begin_of_leaf(leaf + 1));

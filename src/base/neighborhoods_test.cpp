@@ -92,11 +92,26 @@ TEST(NeighborhoodsTest, FewerPointsThanAskedFor) {
   }
 }
 
-// Squares overflow, or vanish: then all are equally near.
-TEST(NeighborhoodsTest, ExtremeCoordinates) {
-  for (const double scale : {1e300, 1e-300}) {
-    Points points = shapes::cube_cloud(100);
-    for (Vec3& p : points) p = scale * p;
+// Where squares of coordinates would overflow or vanish.
+TEST(NeighborhoodsTest, DoNotDependOnTheScale) {
+  const Points points = shapes::cube_cloud(200);
+  const Neighborhoods usual = find_neighborhoods(points, 5, 1, 2);
+  for (const int exponent : {1000, 300, -300, -500, -540, -1000}) {
+    Points scaled = points;
+    for (Vec3& p : scaled) p = std::ldexp(1.0, exponent) * p;
+    const Neighborhoods found = find_neighborhoods(scaled, 5, 1, 2);
+    EXPECT_EQ(found.indices, usual.indices) << exponent;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(found.reach[i], std::ldexp(usual.reach[i], exponent));
+    }
+  }
+}
+
+// Half of the points lie so near together that their squared distances lose digits, or vanish.
+TEST(NeighborhoodsTest, FineClusters) {
+  for (const double scale : {1e-155, 1e-158, 1e-160, 1e-161, 1e-162, 1e-170, 1e-300}) {
+    Points points = shapes::cube_cloud(200);
+    for (std::size_t i = 0; i < points.size(); i += 2) points[i] = scale * points[i];
     const Neighborhoods found = find_neighborhoods(points, 5, 1, 2);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto distinct = as_set(found.of(i));
