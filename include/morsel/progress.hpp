@@ -30,9 +30,13 @@ class Progress {
   /// Calls the callback, then throws Error(kCancelled) if cancellation was asked for.
   void report(std::string_view stage, double fraction) const;
   /// Throws Error(kCancelled) if cancellation was asked for; cheap enough for inner loops.
-  void check() const;
+  void check() const {
+    if (cancelled()) throw_cancelled();
+  }
 
  private:
+  [[noreturn]] static void throw_cancelled();
+
   Callback callback_;
   const Progress* whole_ = nullptr;
   std::atomic<bool> cancelled_{false};

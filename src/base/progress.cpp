@@ -7,9 +7,7 @@ namespace morsel {
 
 thread_local const Progress* CancelScope::innermost = nullptr;
 
-void Progress::check() const {
-  if (cancelled()) throw Error(ErrorCode::kCancelled, "cancelled");
-}
+void Progress::throw_cancelled() { throw Error(ErrorCode::kCancelled, "cancelled"); }
 
 void Progress::report(std::string_view stage, double fraction) const {
   if (callback_) callback_(stage, fraction);
