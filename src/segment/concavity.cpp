@@ -2,69 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "base/threads.hpp"
-#include "interior/poles.hpp"
+#include "base/cancel.hpp"
+#include "delaunay/balls.hpp"
 
 namespace morsel {
 namespace {
 
-// Whether a facet of the cell that holds the vertex has nothing beyond it.
-bool touches_hull(const DelaunayComplex& complex, std::uint32_t cell, std::uint32_t vertex) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (complex.neighbors[cell][i] == kNoCell && complex.cells[cell][i] != vertex) return true;
-  }
-  return false;
-}
+// The radii of the largest balls that touch a vertex; 0 where there is none.
+struct LargestBalls {
+  double inner = 0.0;
+  double outer = 0.0;
+};
 
-double concavity_of(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-                    const Interior& interior, std::uint32_t vertex) {
-  for (const std::uint32_t c : vertex_cells.of(vertex)) {
-    if (touches_hull(complex, c, vertex)) return 0.0;
-  }
-  const auto largest_radius = [&](bool inner) {
-    const std::uint32_t c = largest_ball(complex, vertex_cells, vertex, [&](std::uint32_t other) {
-      return (interior.side[other] == CellSide::kInner) == inner;
-    });
-    return c == kNoCell ? 0.0 : complex.radii[c];
-  };
-  const double inner = largest_radius(true);
-  if (!(inner > 0.0)) return 0.0;
-  return std::min(std::log1p(inner / largest_radius(false)),
-                  kMostConcave);  // also if none is outer
-}
-
-// A crease is one for all samples near its bottom, a slit between two layers of a scan only for
-// those of the layer below.
-double least_around(const DelaunayComplex& complex, const VertexCells& vertex_cells, double lambda,
-                    std::uint32_t vertex, const std::vector<double>& own) {
-  constexpr double kNear = 1.5;
-  const double squared_reach = kNear * kNear * lambda * lambda;
-  double least = own[vertex];
-  for (const std::uint32_t c : vertex_cells.of(vertex)) {
-    for (const std::uint32_t w : complex.cells[c]) {
-      const double squared = squared_distance(complex.vertices[vertex], complex.vertices[w]);
-      if (squared <= squared_reach) least = std::min(least, own[w]);
+std::vector<LargestBalls> find_largest_balls(const DelaunayComplex& complex,
+                                             const Interior& interior) {
+  std::vector<LargestBalls> largest(complex.vertices.size());
+  in_turn(complex.cell_count(), [&](std::size_t c) {
+    const bool is_inner = interior.side[c] == CellSide::kInner;
+    for (std::size_t i = 0; i < 4; ++i) {
+      LargestBalls& balls = largest[complex.cells[c][i]];
+      double& held = is_inner ? balls.inner : balls.outer;
+      held = std::max(held, complex.radii[c]);
+      if (complex.neighbors[c][i] != kNoCell) continue;
+      for (const int k : kFacetSlots[i]) {  // nothing bounds what lies beyond the hull
+        largest[complex.cells[c][k]].outer = std::numeric_limits<double>::infinity();
+      }
     }
-  }
-  return least;
+  });
+  return largest;
+}
+
+double concavity_of(const LargestBalls& balls) {
+  if (!(balls.inner > 0.0)) return 0.0;
+  return std::min(std::log1p(balls.inner / balls.outer), kMostConcave);  // also if none is outer
 }
 
 }  // namespace
 
-std::vector<double> vertex_concavity(const DelaunayComplex& complex,
-                                     const VertexCells& vertex_cells, const Interior& interior,
-                                     const std::vector<double>& lambda, int threads) {
-  std::vector<double> own(complex.vertices.size());
-  parallel_ranges(own.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      own[v] = concavity_of(complex, vertex_cells, interior, static_cast<std::uint32_t>(v));
-    }
-  });
+std::vector<double> vertex_concavity(const DelaunayComplex& complex, const Interior& interior,
+                                     const std::vector<double>& lambda) {
+  // A crease is one for all samples near its bottom, a slit between two layers of a scan only for
+  // those of the layer below.
+  constexpr double kNear = 1.5;
+  std::vector<double> own;
+  own.reserve(complex.vertices.size());
+  for (const LargestBalls& balls : find_largest_balls(complex, interior)) {
+    own.push_back(concavity_of(balls));
+  }
   std::vector<double> least(own);
-  parallel_ranges(own.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      least[v] = least_around(complex, vertex_cells, lambda[v], static_cast<std::uint32_t>(v), own);
+  const auto lower = [&](std::uint32_t v, std::uint32_t by, double distance) {
+    if (distance <= kNear * lambda[v]) least[v] = std::min(least[v], own[by]);
+  };
+  in_turn(complex.cell_count(), [&](std::size_t c) {
+    const auto& cell = complex.cells[c];
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = i + 1; k < 4; ++k) {
+        const double apart = distance(complex.vertices[cell[i]], complex.vertices[cell[k]]);
+        lower(cell[i], cell[k], apart);
+        lower(cell[k], cell[i], apart);
+      }
     }
   });
   return least;

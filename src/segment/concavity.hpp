@@ -16,9 +16,8 @@ namespace morsel {
 /// Source: the two balls are those at the poles of N. Amenta, M. Bern, "Surface Reconstruction by
 /// Voronoi Filtering", Discrete & Computational Geometry 1999.
 [[nodiscard]] std::vector<double> vertex_concavity(const DelaunayComplex& complex,
-                                                   const VertexCells& vertex_cells,
                                                    const Interior& interior,
-                                                   const std::vector<double>& lambda, int threads);
+                                                   const std::vector<double>& lambda);
 
 /// No vertex is more concave: sampling decides how small a ball fits into the bottom of a crease.
 inline constexpr double kMostConcave = 3.0;

@@ -13,8 +13,8 @@ namespace {
 
 using shapes::Stages;
 
-std::vector<double> concavity_of(const Stages& s, int threads = 1) {
-  return vertex_concavity(s.complex, s.vertex_cells, s.interior, s.lambda, threads);
+std::vector<double> concavity_of(const Stages& s) {
+  return vertex_concavity(s.complex, s.interior, s.lambda);
 }
 
 TEST(ConcavityTest, AConvexShapeHasNone) {
@@ -70,11 +70,11 @@ TEST(ConcavityTest, LayersOfAScanAreNoCreases) {
   EXPECT_LT(std::ranges::count_if(concavity, [](double c) { return c > 0.5; }), 800);
 }
 
-TEST(ConcavityTest, DoesNotChangeWithScaleOrThreads) {
+TEST(ConcavityTest, DoesNotChangeWithScale) {
   shapes::Points points = shapes::torus(3000, 2.0, 0.7);
   const std::vector<double> small = concavity_of(shapes::run_stages(points));
   for (Vec3& p : points) p = 1024.0 * p;
-  EXPECT_EQ(concavity_of(shapes::run_stages(points), 2), small);
+  EXPECT_EQ(concavity_of(shapes::run_stages(points)), small);
 }
 
 }  // namespace

@@ -358,9 +358,9 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
                 tree);
   std::vector<PieceContact> contacts =
       piece_contacts(complex, basins, groups, pieces, tree.necks, spacing);
-  const PieceGraph graph = make_piece_graph(
-      complex, pieces.piece_of_cell, tree,
-      vertex_concavity(complex, vertex_cells, interior, lambda, threads), std::move(contacts));
+  const PieceGraph graph =
+      make_piece_graph(complex, pieces.piece_of_cell, tree,
+                       vertex_concavity(complex, interior, lambda), std::move(contacts));
   tree.merges = agglomerate(graph, sight.table());
   tree.component_count = mark_significant(tree.point_count, tree.merges);
   return tree;
