@@ -13,8 +13,11 @@ namespace {
 
 // Root mean square radii of the object at which a pair's weight has fallen to 1/e.
 constexpr double kSightScale = 0.65;
-// Pairs farther apart, of weights below exp(-1.5²) = 0.1, are not looked at.
-constexpr double kSightReach = 1.5 * kSightScale;
+// Pairs farther apart, of weights below 0.2, are not looked at.
+constexpr double kSightReach = 0.85;
+// Of pairs farther apart than this, by far the most and the longest walks, every second is looked
+// at and counts for two.
+constexpr double kAllWithin = 0.6;
 
 // How many walks take turns: each waits for memory at every step, and meanwhile the others go on.
 constexpr std::size_t kAbreast = 12;
@@ -253,8 +256,10 @@ void SightSearch::fill(const std::vector<Place>& places, double extent, Row& row
     const Place& to = places[goal];
     const double relative = distance(from.centroid, to.centroid) / extent;
     if (!(relative < kSightReach)) return;
+    const bool one_for_two = relative >= kAllWithin;
+    if (one_for_two && (goal + places.size()) % 2 == 0) return;
     const double scaled = relative / kSightScale;
-    row.weight[goal] = static_cast<float>(std::exp(-scaled * scaled));
+    row.weight[goal] = static_cast<float>((one_for_two ? 2.0 : 1.0) * std::exp(-scaled * scaled));
     underway.push_back({SegmentWalk(complex_, interior_, from.cell, to.cell, from.centroid,
                                     to.centroid, 0.5 * spacing_),
                         goal});

@@ -86,6 +86,30 @@ TEST(SightTest, FarPairsDoNotCount) {
   EXPECT_EQ(table.weight[0], 1.0F);
 }
 
+TEST(SightTest, OfPairsInBetweenEverySecondCountsForTwo) {
+  const Stages s = shapes::run_stages(shapes::sphere(3000));
+  constexpr double kExtent = 2.0;
+  std::vector<std::uint32_t> seeds;
+  for (std::size_t k = 0; k < 40; ++k) {
+    seeds.push_back(static_cast<std::uint32_t>(k * s.complex.cell_count() / 40));
+  }
+  const SightTable table = look_around(s, seeds, kExtent, 0.1, 1);
+  std::size_t doubled = 0;
+  for (std::size_t a = 0; a < seeds.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const double apart =
+          distance(cell_centroid(s.complex, seeds[a]), cell_centroid(s.complex, seeds[b]));
+      const double scaled = apart / (0.65 * kExtent);
+      double times = 1.0;
+      if (apart >= 0.6 * kExtent) times = (a + b) % 2 == 0 ? 2.0 : 0.0;
+      if (apart >= 0.85 * kExtent) times = 0.0;
+      doubled += times > 1.0 ? 1 : 0;
+      EXPECT_NEAR(table.weight[a * seeds.size() + b], times * std::exp(-scaled * scaled), 1e-6);
+    }
+  }
+  EXPECT_GT(doubled, 50U);
+}
+
 // Cells of a grid are flat or share spheres, and lines between them run along edges and through
 // corners: walks could turn in circles there.
 TEST(SightTest, RegularGridsAreSeenThrough) {
