@@ -27,9 +27,9 @@ class Server:
     def __init__(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="morsel-pg-"))
         self.user = []
+        self.give(self.folder)
         if os.geteuid() == 0:
             account = pwd.getpwnam("postgres")
-            os.chown(self.folder, account.pw_uid, account.pw_gid)
             self.user = ["setpriv", f"--reuid={account.pw_uid}", f"--regid={account.pw_gid}",
                          "--clear-groups"]
         self.folder.chmod(0o755)  # others use the socket
@@ -58,10 +58,19 @@ class Server:
     def address(self, database="postgres"):
         return f"postgresql://morsel@/{database}?host={self.folder}"
 
-    def create(self, database):
-        """Makes an empty database and returns its address."""
-        self.run("createdb", "--host", self.folder, "--username", "morsel", database)
+    def create(self, database, *options):
+        """Makes an empty database, with the options of createdb, and returns its address."""
+        self.run("createdb", "--host", self.folder, "--username", "morsel", *options, database)
         return self.address(database)
+
+    def drop(self, database):
+        self.run("dropdb", "--host", self.folder, "--username", "morsel", "--force", database)
+
+    def give(self, folder):
+        """Makes the folder the server's own, as one of a tablespace has to be."""
+        if os.geteuid() == 0:
+            account = pwd.getpwnam("postgres")
+            os.chown(folder, account.pw_uid, account.pw_gid)
 
     def ask(self, database, statement):
         """What psql prints for it."""

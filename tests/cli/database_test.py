@@ -97,6 +97,17 @@ class DatabaseTest(cli.CliTest):
             connection.commit()
             return row[0] if row else None
 
+    def mount(self, options):
+        """A disk of the test's own; skips the test where none can be mounted."""
+        place = self.folder / "disk"
+        place.mkdir()
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", place],
+                                 capture_output=True, check=False)
+        if mounted.returncode != 0:
+            self.skipTest("cannot mount a disk")
+        self.addCleanup(subprocess.run, ["umount", place], check=True)
+        return place
+
     def remove_database(self):
         for path in self.folder.glob("shapes.db*"):
             path.unlink()
@@ -511,18 +522,6 @@ class Rows(DatabaseTest):
 
 
 class Disks(DatabaseTest):
-    """What needs a disk of its own; skipped where none can be mounted."""
-
-    def mount(self, options):
-        place = self.folder / "disk"
-        place.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", place],
-                                 capture_output=True, check=False)
-        if mounted.returncode != 0:
-            self.skipTest("cannot mount a disk")
-        self.addCleanup(subprocess.run, ["umount", place], check=True)
-        return place
-
     def test_full_disk(self):
         place = self.mount("size=96k")
         names = [self.shape(f"{i}.xyz", "cross", i) for i in range(12)]

@@ -179,6 +179,27 @@ class Server(Faults):
         self.at(self.place, "index", "models")
         self.assertEqual(self.at(self.place, "export"), self.whole())
 
+    def test_disk_of_the_server_is_full(self):
+        disk = self.mount("size=64m")
+        self.folder.chmod(0o755)  # the server is another user
+        self.server.give(disk)
+        self.server.ask("postgres", f"CREATE TABLESPACE small LOCATION '{disk}'")
+        self.addCleanup(self.server.ask, "postgres", "DROP TABLESPACE small")
+        place = self.server.create("small", "--tablespace", "small")
+        self.addCleanup(self.server.drop, "small")
+        self.at(place, "index", "models/0.xyz")
+        with contextlib.suppress(OSError), (disk / "other").open("wb", buffering=0) as other:
+            while True:
+                other.write(bytes(4096))
+        done = self.run_morsel("index", "--database", place, "models")
+        self.assertEqual(done.returncode, INPUT)
+        self.assertRegex(done.stderr.decode(),
+                         r"\Amorsel: postgresql://[^\n]*: the server's disk is full[^\n]*\n\Z")
+        self.assertIn("nothing wrong", self.at(place, "check"))
+        (disk / "other").unlink()
+        self.assertIn(f"{SHAPES} shapes in all", self.at(place, "index", "models"))
+        self.assertEqual(self.at(place, "export"), self.whole())
+
     def test_newer_and_foreign_tables(self):
         self.at(self.place, "index", "models/0.xyz")
         name = re.search(r"/(t\d+)\?", self.place).group(1)
