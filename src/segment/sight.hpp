@@ -13,8 +13,8 @@ namespace morsel {
 /// Symmetric (p, p) tables, row by row.
 struct SightTable {
   std::vector<float> seen;  ///< 1 where the segment between two pieces' seeds stays inside, else 0
-  std::vector<float>
-      weight;  ///< how much a pair counts: falls off with its distance, 0 if not seen
+  /// How much a pair counts: falls off with its distance; 0 for those that are not looked at.
+  std::vector<float> weight;
 };
 
 /// Walks the triangulation along the segments between the seeds of pieces that are not too far
