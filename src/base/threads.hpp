@@ -8,11 +8,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -137,19 +137,26 @@ std::vector<Value> parallel_collect(std::size_t count, int threads, const Collec
 
 /// Sorts by operator<, which must tell any two different values apart, for one result in every run.
 /// Values hold no memory of their own: they are left in any order when the sorting is cancelled.
+/// A piece for each thread is sorted, then neighbouring ones are merged.
 template <typename Value>
 void parallel_sort(std::vector<Value>& values, int threads) {
-  threads = resolve_threads(threads);
+  constexpr std::size_t kWorthwhile = 4096;
+  threads = values.size() < kWorthwhile ? 1 : resolve_threads(threads);
   const auto less = [whose = CancelScope::current()](const Value& a, const Value& b) {
     if (whose != nullptr) whose->check();
     return a < b;
   };
-  if (threads == 1) {
-    std::sort(values.begin(), values.end(), less);
-    return;
+  const std::size_t pieces = std::bit_ceil(static_cast<std::size_t>(threads));
+  const auto at = [&](std::size_t piece) {
+    return values.begin() + static_cast<std::ptrdiff_t>(piece * values.size() / pieces);
+  };
+  parallel_rows(pieces, threads, [&](std::size_t i) { std::sort(at(i), at(i + 1), less); });
+  for (std::size_t width = 1; width < pieces; width *= 2) {
+    parallel_rows(pieces / (2 * width), threads, [&](std::size_t i) {
+      const std::size_t first = 2 * i * width;
+      std::inplace_merge(at(first), at(first + width), at(first + 2 * width), less);
+    });
   }
-  tbb::task_arena arena(threads);
-  arena.execute([&] { tbb::parallel_sort(values.begin(), values.end(), less); });
 }
 
 /// Work for at most `threads` − 1 threads beside the caller's, who may go on meanwhile and does
