@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the Debian package of HEAD twice, from two folders whose names differ in length, without a
+# Builds the Debian packages of HEAD twice, from two folders whose names differ in length, without a
 # compiler cache, at different times and in different languages, and compares the bytes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -16,9 +16,10 @@ build() {
   git clone --quiet --no-checkout . "$folder"
   git -C "$folder" checkout --quiet --detach "$commit"
   (cd "$folder" && scripts/package.sh >"$work/log" 2>&1) || { tail -20 "$work/log" && exit 1; }
-  cp "$folder"/build/package/*.deb "$work/$1.deb"
+  mkdir "$work/packages-$1"
+  cp "$folder"/build/package/*.deb "$work/packages-$1"
 }
 TZ=UTC LC_ALL=C build one
 TZ=Asia/Tokyo LC_ALL=C.UTF-8 build another-one-of-a-longer-name
-sha256sum "$work"/*.deb
-cmp "$work"/*.deb && echo "The two builds have the same bytes."
+sha256sum "$work"/packages-*/*.deb
+diff -r "$work"/packages-* && echo "The two builds have the same bytes."
