@@ -26,12 +26,12 @@ class Server:
 
     def __init__(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="morsel-pg-"))
+        self.account = pwd.getpwnam("postgres") if os.geteuid() == 0 else None
         self.user = []
+        if self.account:
+            self.user = ["setpriv", f"--reuid={self.account.pw_uid}",
+                         f"--regid={self.account.pw_gid}", "--clear-groups"]
         self.give(self.folder)
-        if os.geteuid() == 0:
-            account = pwd.getpwnam("postgres")
-            self.user = ["setpriv", f"--reuid={account.pw_uid}", f"--regid={account.pw_gid}",
-                         "--clear-groups"]
         self.folder.chmod(0o755)  # others use the socket
         self.run("initdb", "--pgdata", self.folder / "data", "--username", "morsel", "--auth",
                  "trust", "--encoding", "UTF8", "--locale", "C", "--no-sync")
@@ -68,9 +68,8 @@ class Server:
 
     def give(self, folder):
         """Makes the folder the server's own, as one of a tablespace has to be."""
-        if os.geteuid() == 0:
-            account = pwd.getpwnam("postgres")
-            os.chown(folder, account.pw_uid, account.pw_gid)
+        if self.account:
+            os.chown(folder, self.account.pw_uid, self.account.pw_gid)
 
     def ask(self, database, statement):
         """What psql prints for it."""

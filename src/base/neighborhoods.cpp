@@ -11,6 +11,7 @@
 #include "base/box.hpp"
 #include "base/point_tree.hpp"
 #include "base/threads.hpp"
+#include "base/unit_scale.hpp"
 
 namespace morsel {
 namespace {
@@ -161,8 +162,8 @@ std::optional<double> find_threshold(std::span<const double> values, std::size_t
 // Finds the neighbours of the points of one leaf after the other, on one thread.
 class Search {
  public:
-  Search(const Tree& tree, double scale, std::size_t inner, Neighborhoods& found)
-      : tree_(tree), scale_(scale), inner_(inner), found_(found) {}
+  Search(const Tree& tree, std::size_t inner, Neighborhoods& found)
+      : tree_(tree), inner_(inner), found_(found) {}
 
   // Of the points from begin to end along the tree's leaves.
   void visit(std::size_t begin, std::size_t end);
@@ -200,7 +201,6 @@ class Search {
   static constexpr double kWide = 4.0;
 
   const Tree& tree_;
-  double scale_;  // of the tree, over that of the cloud
   std::size_t inner_;
   Neighborhoods& found_;
   Column near_;  // holds the neighbours of all points of a leaf
@@ -320,18 +320,15 @@ void Search::find(std::size_t i, std::size_t near, double reach, double apart) {
   for (std::size_t j = 0; j < count; ++j) {
     to[at[inner.takes(squared[j], index[j]) ? 1 : 0]++] = index[j];
   }
-  found_.reach[self] = std::sqrt(*std::max_element(squared, squared + count)) / scale_;
+  found_.reach[self] = std::sqrt(*std::max_element(squared, squared + count));
 }
 
-// Brings the largest coordinate near 1, so that squares neither overflow nor vanish. A power of
-// two: nothing is rounded.
-double scale_of(std::span<const Vec3> points) {
+double largest_coordinate(std::span<const Vec3> points) {
   double largest = 0.0;
   for (const Vec3& p : points) {
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  constexpr int kMost = 1000;
-  return largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -kMost, kMost)) : 1.0;
+  return largest;
 }
 
 }  // namespace
@@ -344,16 +341,17 @@ Neighborhoods find_neighborhoods(std::span<const Vec3> points, std::size_t size,
   result.reach.resize(points.size());
   if (result.size == 0) return result;
   constexpr std::size_t kLeavesARow = 256;
-  const double scale = scale_of(points);
+  const double scale = unit_scale(largest_coordinate(points));
   const Tree tree(points, scale);
   const std::size_t rows = (tree.leaf_count() + kLeavesARow - 1) / kLeavesARow;
   parallel_rows(rows, threads, [&](std::size_t row) {
-    Search search(tree, scale, std::min(inner, result.size), result);
+    Search search(tree, std::min(inner, result.size), result);
     const std::size_t end = std::min((row + 1) * kLeavesARow, tree.leaf_count());
     for (std::size_t leaf = row * kLeavesARow; leaf < end; ++leaf) {
       search.visit(tree.begin_of_leaf(leaf), tree.begin_of_leaf(leaf + 1));
     }
   });
+  for (double& reach : result.reach) reach /= scale;
   return result;
 }
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "base/base64.hpp"
+#include "base/whole_number.hpp"
 #include "io/bytes.hpp"
 #include "io/geometry.hpp"
 
@@ -165,11 +166,12 @@ class GltfReader {
     return items.at(index);
   }
   [[nodiscard]] std::size_t checked_size(const Json& value, const char* name) const {
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > kMaxSize) {
+    const auto number = whole_number<std::size_t>(value);
+    if (!number || *number > kMaxSize) {
       fail(fmt::format("{} is {}; expected a non-negative integer in range", name,
                        in_quotes(value.dump(-1, ' ', true, Json::error_handler_t::replace))));
     }
-    return value.get<std::size_t>();
+    return *number;
   }
   [[nodiscard]] std::size_t size(const Json& object, const char* name) const {
     return checked_size(object.at(name), name);

@@ -11,6 +11,7 @@
 #include "base/box.hpp"
 #include "base/noise.hpp"
 #include "base/random.hpp"
+#include "base/unit_scale.hpp"
 
 namespace morsel {
 namespace {
@@ -40,10 +41,9 @@ Box bounding_box(const TriangleMesh& mesh) {
   return box;
 }
 
-// Element i is the area of triangles 0 to i. Areas are taken after scaling by a power of two that
-// brings the mesh to about unit size: nothing over- or underflows, and no rounding changes.
+// Element i is the area of triangles 0 to i, of the mesh at about unit size.
 std::vector<double> cumulative_areas(const TriangleMesh& mesh, double size) {
-  const double scale = size > 0.0 ? std::ldexp(1.0, -std::ilogb(size)) : 1.0;
+  const double scale = unit_scale(size);
   std::vector<double> sums;
   sums.reserve(mesh.triangles.size());
   double sum = 0.0;

@@ -1,13 +1,13 @@
 // A signature as JSON, and back.
 
-#include "base/json.hpp"
-
 #include <cstdint>
 #include <limits>
 #include <morsel/error.hpp>
 #include <morsel/signature.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "base/whole_number.hpp"
 
 namespace morsel {
 namespace {

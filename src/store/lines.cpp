@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/base64.hpp"
-#include "base/json.hpp"
+#include "base/whole_number.hpp"
 #include "store/rows.hpp"
 #include "store/state.hpp"
 
