@@ -1,5 +1,23 @@
 // CGAL's triangulation is built, copied into flat arrays and freed here; no other file includes it.
 
+#include <CGAL/tss.h>
+
+namespace morsel {
+
+// One for each thread, asked for by a call that is not repeated at every use, as compilers do it in
+// a shared library.
+template <typename Value>
+[[gnu::noinline]] Value& of_this_thread() {
+  static thread_local Value value;
+  return value;
+}
+
+}  // namespace morsel
+
+// The triangulation has one such table, which it looks into hundreds of times for each point.
+#undef CGAL_STATIC_THREAD_LOCAL_VARIABLE_0
+#define CGAL_STATIC_THREAD_LOCAL_VARIABLE_0(TYPE, VAR) TYPE& VAR = morsel::of_this_thread<TYPE>()
+
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
