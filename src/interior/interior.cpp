@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "base/bucket_sort.hpp"
 #include "base/threads.hpp"
 #include "base/union_find.hpp"
 #include "delaunay/balls.hpp"
@@ -163,7 +164,8 @@ void flood(const DelaunayComplex& complex, const VertexCells& vertex_cells,
   std::vector<Bridge> bridges = find_bridges(complex, ratio, side, threads);
   const auto walls = find_walls(complex, vertex_cells, ratio, side, shores, threads);
   bridges.insert(bridges.end(), walls.begin(), walls.end());
-  parallel_sort(bridges, threads);
+  bucket_sort(bridges, kSizeBuckets, threads,
+              [](const Bridge& bridge) { return size_bucket(bridge.strength); });
   side.insert(side.end(), {CellSide::kOuter, CellSide::kInner});
   UnionFind forest(side.size());
   in_turn(bridges.size(),
