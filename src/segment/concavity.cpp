@@ -52,16 +52,17 @@ std::vector<double> vertex_concavity(const DelaunayComplex& complex, const Inter
     own.push_back(concavity_of(balls));
   }
   std::vector<double> least(own);
-  const auto lower = [&](std::uint32_t v, std::uint32_t by, double distance) {
-    if (distance <= kNear * lambda[v]) least[v] = std::min(least[v], own[by]);
+  const auto lower = [&](std::uint32_t v, std::uint32_t by) {
+    if (own[by] >= least[v]) return;  // most often
+    const double apart = distance(complex.vertices[v], complex.vertices[by]);
+    if (apart <= kNear * lambda[v]) least[v] = own[by];
   };
   in_turn(complex.cell_count(), [&](std::size_t c) {
     const auto& cell = complex.cells[c];
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = i + 1; k < 4; ++k) {
-        const double apart = distance(complex.vertices[cell[i]], complex.vertices[cell[k]]);
-        lower(cell[i], cell[k], apart);
-        lower(cell[k], cell[i], apart);
+        lower(cell[i], cell[k]);
+        lower(cell[k], cell[i]);
       }
     }
   });
