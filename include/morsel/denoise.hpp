@@ -36,9 +36,11 @@ struct Denoised {
   std::vector<std::uint32_t> stand_in;  ///< (n) index into `points` for each input point: its own,
                                         ///< for one left out that of the nearest point kept;
                                         ///< kNoStandIn in a Segmentation for the ground's
-  double noise = 0.0;             ///< estimated standard deviation across the surface, in units
-  double spacing = 0.0;           ///< median distance to the twelfth nearest neighbour, in units
-  int rounds = 0;                 ///< of smoothing that were done
+  std::vector<double> lambda;  ///< (m) mean distance of each of `points` to its three nearest, or
+                               ///< nothing where they were moved or few of them are left
+  double noise = 0.0;          ///< estimated standard deviation across the surface, in units
+  double spacing = 0.0;        ///< median distance to the twelfth nearest neighbour, in units
+  int rounds = 0;              ///< of smoothing that were done
   std::size_t outlier_count = 0;  ///< input points that were set apart
 };
 

@@ -1,10 +1,14 @@
 // The nearest neighbours of every point of a cloud.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <morsel/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace morsel {
@@ -28,6 +32,29 @@ struct Neighborhoods {
                                                       std::size_t size, int threads) {
   return find_neighborhoods(points, size, threads, size);
 }
+
+/// The three least of some distances.
+class ThreeLeast {
+ public:
+  void add(double distance) {
+    for (double& held : held_) {
+      if (distance < held) std::swap(distance, held);
+    }
+    ++added_;
+  }
+  [[nodiscard]] std::size_t count() const { return std::min(added_, held_.size()); }
+  /// Of as many as there are, at least one.
+  [[nodiscard]] double mean() const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < count(); ++k) sum += held_[k];
+    return sum / static_cast<double>(count());
+  }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::array<double, 3> held_{kNone, kNone, kNone};  // ascending
+  std::size_t added_ = 0;
+};
 
 /// For each query the index of the nearest of `points`, which is not empty.
 [[nodiscard]] std::vector<std::uint32_t> find_nearest(std::span<const Vec3> points,

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <morsel/delaunay.hpp>
 
 #include "base/neighborhoods.hpp"
@@ -46,12 +43,9 @@ std::vector<double> mean_neighbor_distance(const DelaunayComplex& complex, int t
   std::vector<double> lambda(points.size(), 0.0);
   if (nearest.size == 0) return lambda;
   const auto measure = [&](std::size_t i) {
-    std::array<double, 3> distances{};
-    for (std::size_t k = 0; k < nearest.size; ++k) {
-      distances[k] = distance(points[i], points[nearest.of(i)[k]]);
-    }
-    std::ranges::sort(distances);  // rounds the same sum of them to the same value
-    lambda[i] = (distances[0] + distances[1] + distances[2]) / static_cast<double>(nearest.size);
+    ThreeLeast least;
+    for (const std::uint32_t j : nearest.of(i)) least.add(distance(points[i], points[j]));
+    lambda[i] = least.mean();
   };
   parallel_ranges(points.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) measure(i);

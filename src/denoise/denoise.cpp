@@ -66,6 +66,9 @@ struct Cleaned {
   std::size_t outlier_count = 0;        // of the input
   double noise = 0.0;                   // of the points kept
   double spacing = 0.0;                 // the median reach of the points kept
+  std::vector<double> lambda;           // of the points kept, or nothing where they are noisy
+
+  [[nodiscard]] bool is_noisy() const { return noise > kNoisyShare * spacing; }
 };
 
 // `count` of the points, spread evenly along the curve; each answers for those nearest to it.
@@ -106,6 +109,24 @@ std::vector<std::uint32_t> find_stand_ins(const std::vector<Vec3>& points,
   return place;
 }
 
+// The mean distance of each point kept to the three nearest of those. Nothing if one has fewer left
+// of its neighbours.
+std::vector<double> measure_lambda(const std::vector<Vec3>& points,
+                                   const Neighborhoods& neighborhoods,
+                                   const std::vector<bool>& drop) {
+  std::vector<double> lambda;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (drop[i]) continue;
+    ThreeLeast least;
+    for (const std::uint32_t j : neighborhoods.of(i)) {
+      if (!drop[j]) least.add(distance(points[i], points[j]));
+    }
+    if (least.count() < 3) return {};
+    lambda.push_back(least.mean());
+  }
+  return lambda;
+}
+
 Cleaned drop_outliers(std::span<const Vec3> input, std::size_t most, int threads) {
   constexpr double kFromCloud = 3.0;
   SpatialOrder order = sort_spatially(input, threads);
@@ -118,6 +139,7 @@ Cleaned drop_outliers(std::span<const Vec3> input, std::size_t most, int threads
   cleaned.spacing = quantile(select(neighborhoods.reach, drop), 0.5);
   const Planes planes = fit_planes(order.points, neighborhoods, kNeighbors, threads);
   cleaned.noise = estimate_noise(select(planes.residual, drop));
+  if (!cleaned.is_noisy()) cleaned.lambda = measure_lambda(order.points, neighborhoods, drop);
   const std::vector<std::uint32_t> target =
       find_stand_ins(order.points, neighborhoods, drop, cleaned.points, threads);
   for (std::size_t i = 0; i < input.size(); ++i) {
@@ -150,8 +172,8 @@ Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
   if (result.points.size() <= kNeighbors) return result;
   result.noise = cleaned.noise;
   result.spacing = cleaned.spacing;
-  const bool noisy = result.noise > kNoisyShare * result.spacing;
-  result.rounds = options.rounds.value_or(noisy ? kRounds : 0);
+  result.rounds = options.rounds.value_or(cleaned.is_noisy() ? kRounds : 0);
+  if (result.rounds == 0) result.lambda = std::move(cleaned.lambda);
   smooth(result.points, result.rounds, options.threads);
   return result;
 }

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <morsel/denoise.hpp>
 #include <morsel/error.hpp>
 #include <string>
+#include <vector>
 
 #include "base/test_shapes.hpp"
 
@@ -29,6 +31,7 @@ void expect_sound(const Points& input, const Denoised& denoised) {
 void expect_same(const Denoised& a, const Denoised& b) {
   EXPECT_TRUE(a.points == b.points);
   EXPECT_TRUE(a.stand_in == b.stand_in);
+  EXPECT_TRUE(a.lambda == b.lambda);
   EXPECT_EQ(a.noise, b.noise);
   EXPECT_EQ(a.spacing, b.spacing);
   EXPECT_EQ(a.rounds, b.rounds);
@@ -50,6 +53,23 @@ TEST(DenoiseTest, CleanSamplesStayAsTheyAre) {
     }
     EXPECT_EQ(stood_in, denoised.outlier_count);
   }
+}
+
+TEST(DenoiseTest, LambdaIsOfThePointsKept) {
+  Points points = shapes::torus(2000, 2.0, 0.7);
+  for (int i = 0; i < 20; ++i) points.push_back({0.0, 0.0, 1.0 + 0.01 * i * i});  // outliers
+  const Denoised denoised = denoise(points);
+  ASSERT_LT(denoised.points.size(), points.size());
+  ASSERT_EQ(denoised.lambda.size(), denoised.points.size());
+  for (std::size_t i = 0; i < denoised.points.size(); ++i) {
+    std::vector<double> distances;
+    for (const Vec3& p : denoised.points) distances.push_back(distance(denoised.points[i], p));
+    std::ranges::sort(distances);  // the point itself comes first
+    EXPECT_EQ(denoised.lambda[i], (distances[1] + distances[2] + distances[3]) / 3.0) << i;
+  }
+  EXPECT_TRUE(denoise(points, {.rounds = 1}).lambda.empty());
+  EXPECT_TRUE(denoise(shapes::noisy(points, 0.05)).lambda.empty());
+  EXPECT_TRUE(denoise(Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).lambda.empty());
 }
 
 TEST(DenoiseTest, NoisySphereComesCloserToItsSurface) {

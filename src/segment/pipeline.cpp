@@ -77,6 +77,17 @@ Denoised denoise_objects(std::span<const Vec3> points, const Ground& ground,
   return result;
 }
 
+// λ of each vertex: known from the denoising where the points are still what they were then.
+std::vector<double> find_lambda(const DelaunayComplex& complex, const Denoised& denoised,
+                                int threads) {
+  if (denoised.lambda.empty()) return mean_neighbor_distance(complex, threads);
+  std::vector<double> lambda(complex.vertices.size());
+  for (std::size_t i = 0; i < denoised.lambda.size(); ++i) {
+    lambda[complex.vertex_of_point[i]] = denoised.lambda[i];
+  }
+  return lambda;
+}
+
 // From here on "point" means a point of the input, outliers and repeated ones included.
 std::vector<std::uint32_t> vertices_of_input(const DelaunayComplex& complex,
                                              const Denoised& denoised) {
@@ -208,13 +219,12 @@ Attempt attempt(std::span<const Vec3> points, const Ground& ground, std::size_t 
     return denoise_objects(points, ground, denoise_options, progress);
   });
   a.complex = stages.run("triangulate", 0.2, [&] {
-    DelaunayComplex complex = triangulate(a.denoised.points, {options.threads}, progress);
-    complex.vertex_of_point = vertices_of_input(complex, a.denoised);
-    return complex;
+    return triangulate(a.denoised.points, {options.threads}, progress);
   });
-  a.vertex_cells = find_vertex_cells(a.complex);
   a.lambda = stages.run("neighbors", 0.7,
-                        [&] { return mean_neighbor_distance(a.complex, options.threads); });
+                        [&] { return find_lambda(a.complex, a.denoised, options.threads); });
+  a.complex.vertex_of_point = vertices_of_input(a.complex, a.denoised);
+  a.vertex_cells = find_vertex_cells(a.complex);
   a.interior = stages.run("interior", 0.75, [&] {
     return find_interior(a.complex, a.vertex_cells, a.lambda, options.interior, options.threads);
   });
