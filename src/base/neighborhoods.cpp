@@ -169,11 +169,14 @@ class Search {
   void visit(std::size_t begin, std::size_t end);
 
  private:
+  static constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
   // The last that is taken, by squared distance and then by index.
   struct Cut {
     double squared;
     std::uint32_t index;
 
+    // Some that are as far are not taken.
+    [[nodiscard]] bool is_tied() const { return index != kNoIndex; }
     [[nodiscard]] bool takes(double other, std::uint32_t other_index) const {
       return (other < squared) | ((other == squared) & (other_index <= index));
     }
@@ -187,7 +190,7 @@ class Search {
   void measure(const Vec3& from, const Column& to, std::size_t begin, std::size_t end);
   [[nodiscard]] Cut find_cut(std::size_t count, std::size_t wanted, double guess) const;
   std::size_t find_near(const Vec3& center, double radius, double& reach);
-  void find(std::size_t i, std::size_t near, double reach, double apart);
+  double find(std::size_t i, std::size_t near, double most, double guess);
 
   // The square of both lengths together, wider than computed by more than the rounding, also where
   // squares are so small that they lose digits.
@@ -237,7 +240,7 @@ void Search::measure(const Vec3& from, const Column& to, std::size_t begin, std:
 
 Search::Cut Search::find_cut(std::size_t count, std::size_t wanted, double guess) const {
   const auto threshold = find_threshold({squared_.data(), count}, wanted, guess);
-  if (threshold) return {*threshold, std::numeric_limits<std::uint32_t>::max()};
+  if (threshold) return {*threshold, kNoIndex};
   std::vector<std::pair<double, std::uint32_t>> sorted;
   for (std::size_t i = 0; i < count; ++i) sorted.emplace_back(squared_[i], index_[i]);
   std::ranges::sort(sorted);
@@ -282,7 +285,10 @@ void Search::visit(std::size_t begin, std::size_t end) {
   }
   // Around a point that is d from the center there are as many within reach + d.
   const std::size_t near = find_near(center, radius, reach);
-  for (std::size_t i = begin; i < end; ++i) find(i, near, reach, distance(center, place(i)));
+  double guess = reach * reach;
+  for (std::size_t i = begin; i < end; ++i) {
+    guess = find(i, near, bound(reach, distance(center, place(i))), guess);
+  }
 }
 
 // Keeps those of the first `count` that `takes` accepts, in order; returns how many. Without a
@@ -301,18 +307,24 @@ std::size_t keep(double* squared, std::uint32_t* index, const std::uint32_t* fro
   return kept;
 }
 
-void Search::find(std::size_t i, std::size_t near, double reach, double apart) {
+// Of point i, all of whose neighbours are among the first `near`, no farther than the root of
+// `most`. Returns what to guess for the next point.
+double Search::find(std::size_t i, std::size_t near, double most, double guess) {
   const std::uint32_t self = tree_.column().index[i];
   measure(place(i), near_, 0, near);
   double* squared = squared_.data();
   std::uint32_t* index = index_.data();
-  const double most = bound(reach, apart);
   std::size_t count = keep(squared, index, near_.index.data(), near,
                            [most](double value, std::uint32_t) { return value <= most; });
-  const Cut outer = find_cut(count, found_.size + 1, reach * reach);
-  count = keep(squared, index, index, count, [&](double value, std::uint32_t point) {
-    return outer.takes(value, point) & (point != self);
-  });
+  const Cut outer = find_cut(count, found_.size + 1, guess);
+  const auto others = [&](const auto& takes) {
+    return keep(squared, index, index, count, [&](double value, std::uint32_t point) {
+      return takes(value, point) & (point != self);
+    });
+  };
+  count = outer.is_tied()
+              ? others([&](double value, std::uint32_t point) { return outer.takes(value, point); })
+              : others([&](double value, std::uint32_t) { return value <= outer.squared; });
   const double share = static_cast<double>(inner_) / static_cast<double>(found_.size);
   const Cut inner = find_cut(count, inner_, share * outer.squared);
   std::uint32_t* to = found_.indices.data() + self * found_.size;
@@ -321,6 +333,7 @@ void Search::find(std::size_t i, std::size_t near, double reach, double apart) {
     to[at[inner.takes(squared[j], index[j]) ? 1 : 0]++] = index[j];
   }
   found_.reach[self] = std::sqrt(*std::max_element(squared, squared + count));
+  return outer.squared;
 }
 
 double largest_coordinate(std::span<const Vec3> points) {
