@@ -135,26 +135,26 @@ std::size_t Tree::collect(const Vec3& center, double squared, Column& near) cons
 }
 
 // Said by the sign of the difference, as compilers make no vectors of comparisons.
-std::size_t count_up_to(std::span<const double> values, double most) {
-  std::uint64_t above = 0;
-  for (const double value : values) above += std::bit_cast<std::uint64_t>(most - value) >> 63;
+std::size_t count_up_to(std::span<const float> values, float most) {
+  std::uint32_t above = 0;
+  for (const float value : values) above += std::bit_cast<std::uint32_t>(most - value) >> 31;
   return values.size() - above;
 }
 
 // Some value that exactly `wanted` of the others do not exceed; none where equal ones stand in the
 // way. On a surface the number of neighbours grows with the square of the distance.
-std::optional<double> find_threshold(std::span<const double> values, std::size_t wanted,
-                                     double guess) {
+std::optional<float> find_threshold(std::span<const float> values, std::size_t wanted,
+                                    float guess) {
   constexpr int kGuesses = 40;
-  double low = 0.0;
-  double high = std::numeric_limits<double>::infinity();
+  float low = 0.0F;
+  float high = std::numeric_limits<float>::infinity();
   for (int i = 0; i < kGuesses; ++i) {
     const std::size_t found = count_up_to(values, guess);
     if (found == wanted) return guess;
     (found < wanted ? low : high) = guess;
-    guess *= static_cast<double>(wanted) / static_cast<double>(std::max<std::size_t>(found, 1));
+    guess *= static_cast<float>(wanted) / static_cast<float>(std::max<std::size_t>(found, 1));
     if (guess > low && guess < high) continue;
-    guess = high < std::numeric_limits<double>::infinity() ? 0.5 * (low + high) : 2.0 * low;
+    guess = high < std::numeric_limits<float>::infinity() ? 0.5F * (low + high) : 2.0F * low;
   }
   return std::nullopt;
 }
@@ -170,13 +170,16 @@ class Search {
 
  private:
   static constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
-  // The last that is taken, by squared distance and then by index.
+  // What is taken ends here, by squared distance and then by index.
   struct Cut {
     double squared;
     std::uint32_t index;
 
-    // Some that are as far are not taken.
-    [[nodiscard]] bool is_tied() const { return index != kNoIndex; }
+    // As many have no larger distances when they are rounded, which exchanges no two.
+    [[nodiscard]] bool is_clear() const { return index == kNoIndex; }
+    [[nodiscard]] bool takes(double other) const {
+      return static_cast<float>(other) <= static_cast<float>(squared);
+    }
     [[nodiscard]] bool takes(double other, std::uint32_t other_index) const {
       return (other < squared) | ((other == squared) & (other_index <= index));
     }
@@ -188,15 +191,16 @@ class Search {
   }
   [[nodiscard]] std::size_t middle_of(std::size_t begin, std::size_t end) const;
   void measure(const Vec3& from, const Column& to, std::size_t begin, std::size_t end);
-  [[nodiscard]] Cut find_cut(std::size_t count, std::size_t wanted, double guess) const;
+  std::optional<float> part(std::size_t count, std::size_t wanted, double guess);
+  [[nodiscard]] Cut find_cut(std::size_t count, std::size_t wanted, double guess);
   std::size_t find_near(const Vec3& center, double radius, double& reach);
   double find(std::size_t i, std::size_t near, double most, double guess);
 
-  // The square of both lengths together, wider than computed by more than the rounding, also where
-  // squares are so small that they lose digits.
+  // The square of both lengths together, wider than computed by more than the rounding to floats,
+  // also where squares are so small that they lose digits.
   [[nodiscard]] static double bound(double a, double b) {
     constexpr double kMargin = 1.000001;
-    constexpr double kLeast = 1e-140;
+    constexpr double kLeast = 1e-19;
     const double sum = a + b + kLeast;
     return kMargin * sum * sum;
   }
@@ -209,6 +213,7 @@ class Search {
   Column near_;  // holds the neighbours of all points of a leaf
   // Of those, or of those that are taken.
   std::vector<double> squared_;
+  std::vector<float> rounded_;
   std::vector<std::uint32_t> index_;
 };
 
@@ -227,6 +232,7 @@ std::size_t Search::middle_of(std::size_t begin, std::size_t end) const {
 void Search::measure(const Vec3& from, const Column& to, std::size_t begin, std::size_t end) {
   if (squared_.size() < end - begin) {
     squared_.resize(2 * (end - begin));
+    rounded_.resize(squared_.size());
     index_.resize(squared_.size());
   }
   double* squared = squared_.data();
@@ -238,9 +244,15 @@ void Search::measure(const Vec3& from, const Column& to, std::size_t begin, std:
   }
 }
 
-Search::Cut Search::find_cut(std::size_t count, std::size_t wanted, double guess) const {
-  const auto threshold = find_threshold({squared_.data(), count}, wanted, guess);
-  if (threshold) return {*threshold, kNoIndex};
+// What exactly `wanted` of the first `count` do not exceed as floats, which are counted in half the
+// time.
+std::optional<float> Search::part(std::size_t count, std::size_t wanted, double guess) {
+  for (std::size_t i = 0; i < count; ++i) rounded_[i] = static_cast<float>(squared_[i]);
+  return find_threshold({rounded_.data(), count}, wanted, static_cast<float>(guess));
+}
+
+Search::Cut Search::find_cut(std::size_t count, std::size_t wanted, double guess) {
+  if (const auto threshold = part(count, wanted, guess)) return {*threshold, kNoIndex};
   std::vector<std::pair<double, std::uint32_t>> sorted;
   for (std::size_t i = 0; i < count; ++i) sorted.emplace_back(squared_[i], index_[i]);
   std::ranges::sort(sorted);
@@ -252,8 +264,8 @@ Search::Cut Search::find_cut(std::size_t count, std::size_t wanted, double guess
 std::size_t Search::find_near(const Vec3& center, double radius, double& reach) {
   const std::size_t count = tree_.collect(center, bound(reach, 2.0 * radius), near_);
   measure(center, near_, 0, count);
-  const auto least = find_threshold({squared_.data(), count}, found_.size + 1, reach * reach);
-  if (least) reach = std::min(reach, std::sqrt(*least));
+  const auto least = part(count, found_.size + 1, reach * reach);
+  if (least) reach = std::min(reach, std::sqrt(static_cast<double>(*least)));
   const double most = bound(reach, 2.0 * radius);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -275,9 +287,10 @@ void Search::visit(std::size_t begin, std::size_t end) {
   const std::size_t first = begin - std::min(begin, 2 * wanted);
   const std::size_t last = std::min(end + 2 * wanted, all.index.size());
   measure(center, all, first, last);
-  const auto some = find_threshold({squared_.data(), last - first}, wanted, radius * radius);
-  double reach = std::sqrt(
-      some.value_or(*std::max_element(squared_.data(), squared_.data() + (last - first))));
+  const auto some = part(last - first, wanted, radius * radius);
+  double reach =
+      std::sqrt(some ? static_cast<double>(*some)
+                     : *std::max_element(squared_.data(), squared_.data() + (last - first)));
   if (radius > kWide * reach && end - begin > 1) {
     visit(begin, begin + (end - begin) / 2);
     visit(begin + (end - begin) / 2, end);
@@ -322,15 +335,17 @@ double Search::find(std::size_t i, std::size_t near, double most, double guess) 
       return takes(value, point) & (point != self);
     });
   };
-  count = outer.is_tied()
-              ? others([&](double value, std::uint32_t point) { return outer.takes(value, point); })
-              : others([&](double value, std::uint32_t) { return value <= outer.squared; });
+  count =
+      outer.is_clear()
+          ? others([&](double value, std::uint32_t) { return outer.takes(value); })
+          : others([&](double value, std::uint32_t point) { return outer.takes(value, point); });
   const double share = static_cast<double>(inner_) / static_cast<double>(found_.size);
   const Cut inner = find_cut(count, inner_, share * outer.squared);
   std::uint32_t* to = found_.indices.data() + self * found_.size;
   std::array<std::size_t, 2> at{inner_, 0};
   for (std::size_t j = 0; j < count; ++j) {
-    to[at[inner.takes(squared[j], index[j]) ? 1 : 0]++] = index[j];
+    const bool in = inner.is_clear() ? inner.takes(squared[j]) : inner.takes(squared[j], index[j]);
+    to[at[in ? 1 : 0]++] = index[j];
   }
   found_.reach[self] = std::sqrt(*std::max_element(squared, squared + count));
   return outer.squared;
