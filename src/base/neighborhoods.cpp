@@ -192,7 +192,8 @@ class Search {
   [[nodiscard]] std::size_t middle_of(std::size_t begin, std::size_t end) const;
   void measure(const Vec3& from, const Column& to, std::size_t begin, std::size_t end);
   std::optional<float> part(std::size_t count, std::size_t wanted, double guess);
-  [[nodiscard]] Cut find_cut(std::size_t count, std::size_t wanted, double guess);
+  [[nodiscard]] Cut find_cut(std::size_t count, std::size_t wanted, double guess,
+                             std::uint32_t self);
   std::size_t find_near(const Vec3& center, double radius, double& reach);
   double find(std::size_t i, std::size_t near, double most, double guess);
 
@@ -251,10 +252,14 @@ std::optional<float> Search::part(std::size_t count, std::size_t wanted, double 
   return find_threshold({rounded_.data(), count}, wanted, static_cast<float>(guess));
 }
 
-Search::Cut Search::find_cut(std::size_t count, std::size_t wanted, double guess) {
+// `self` comes first, also where other distances vanish.
+Search::Cut Search::find_cut(std::size_t count, std::size_t wanted, double guess,
+                             std::uint32_t self) {
   if (const auto threshold = part(count, wanted, guess)) return {*threshold, kNoIndex};
   std::vector<std::pair<double, std::uint32_t>> sorted;
-  for (std::size_t i = 0; i < count; ++i) sorted.emplace_back(squared_[i], index_[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    sorted.emplace_back(index_[i] == self ? -1.0 : squared_[i], index_[i]);
+  }
   std::ranges::sort(sorted);
   return {sorted[wanted - 1].first, sorted[wanted - 1].second};
 }
@@ -329,7 +334,7 @@ double Search::find(std::size_t i, std::size_t near, double most, double guess) 
   std::uint32_t* index = index_.data();
   std::size_t count = keep(squared, index, near_.index.data(), near,
                            [most](double value, std::uint32_t) { return value <= most; });
-  const Cut outer = find_cut(count, found_.size + 1, guess);
+  const Cut outer = find_cut(count, found_.size + 1, guess, self);
   const auto others = [&](const auto& takes) {
     return keep(squared, index, index, count, [&](double value, std::uint32_t point) {
       return takes(value, point) & (point != self);
@@ -340,7 +345,7 @@ double Search::find(std::size_t i, std::size_t near, double most, double guess) 
           ? others([&](double value, std::uint32_t) { return outer.takes(value); })
           : others([&](double value, std::uint32_t point) { return outer.takes(value, point); });
   const double share = static_cast<double>(inner_) / static_cast<double>(found_.size);
-  const Cut inner = find_cut(count, inner_, share * outer.squared);
+  const Cut inner = find_cut(count, inner_, share * outer.squared, self);
   std::uint32_t* to = found_.indices.data() + self * found_.size;
   std::array<std::size_t, 2> at{inner_, 0};
   for (std::size_t j = 0; j < count; ++j) {

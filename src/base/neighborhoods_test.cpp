@@ -122,6 +122,20 @@ TEST(NeighborhoodsTest, FineClusters) {
   }
 }
 
+// A point is no neighbour of its own where all distances vanish, nor takes the place of another's.
+TEST(NeighborhoodsTest, VanishingDistances) {
+  Points points = shapes::cube_cloud(100);
+  for (Vec3& p : points) p = 1e-200 * p;
+  points.insert(points.begin(), {1.0, 0.0, 0.0});
+  const Neighborhoods found = find_neighborhoods(points, 5, 1, 2);
+  ASSERT_EQ(found.indices.size(), 5 * points.size());
+  for (std::uint32_t i = 1; i < points.size(); ++i) {
+    std::set<std::uint32_t> expected{1, 2, 3, 4, 5};
+    if (expected.erase(i) > 0) expected.insert(6);
+    EXPECT_EQ(as_set(found.of(i)), expected) << i;
+  }
+}
+
 TEST(NeighborhoodsTest, CanBeCancelled) {
   Progress progress;
   progress.cancel();
