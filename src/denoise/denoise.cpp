@@ -103,6 +103,7 @@ std::vector<std::uint32_t> find_stand_ins(const std::vector<Vec3>& points,
     if (nearest.second == i) lonely.push_back(i);
   }
   std::vector<Vec3> queries;
+  queries.reserve(lonely.size());
   for (const std::uint32_t i : lonely) queries.push_back(points[i]);
   const std::vector<std::uint32_t> found = find_nearest(kept, queries, threads);
   for (std::size_t k = 0; k < lonely.size(); ++k) place[lonely[k]] = found[k];
