@@ -8,7 +8,6 @@
 #include <limits>
 #include <morsel/vec3.hpp>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace morsel {
@@ -38,7 +37,9 @@ class ThreeLeast {
  public:
   void add(double distance) {
     for (double& held : held_) {
-      if (distance < held) std::swap(distance, held);
+      const double larger = std::max(held, distance);
+      held = std::min(held, distance);
+      distance = larger;
     }
     ++added_;
   }
