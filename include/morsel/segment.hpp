@@ -94,8 +94,9 @@ struct MergeTree {
 /// Method::kDefault: the flow's basins, grouped where sampling alone tells them apart, are cut into
 /// pieces; the cheapest pair of touching groups is merged again and again. A pair costs the more,
 /// the narrower its neck (the paper's ratio), the less of it is visible from one to the other
-/// through the inside, and the larger both are. The ratio of a merge is its cost on the paper's
-/// scale: that of a neck which alone would cost as much. docs/method.md has the formula.
+/// through the inside, and the larger both are; without a crease around the contact it costs
+/// nothing. Ratios say in which order merges are best undone, on a scale like the paper's: the
+/// costlier and the more points they divide, the larger. docs/method.md has the formulas.
 /// Throws nothing but Error(kInternal). Cost: O(c log c).
 [[nodiscard]] MergeTree build_merge_tree(const DelaunayComplex& complex,
                                          const VertexCells& vertex_cells,

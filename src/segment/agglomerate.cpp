@@ -14,21 +14,25 @@ namespace {
 // cost = ((1 - sight) · (max(surface / contact, kLeastIsolation) / kUsualIsolation)^kIsolationPower
 //         + ln(ratio / kNoNeck)⁺ + kThicknessWeight · |Δ ln thickness|
 //         + kNarrowWeight · ln(π thickness² / contact)⁺ + kCreaseWeight · concavity²)
+//        · creased share of the contact
+//        · min(surface / contact / kSliceIsolation, 1)^kSlicePower
 //        · (20 · share of the smaller side)^kSizePower
 //        · min(3 · thickness of the thicker side / radius of the object, 1)^kBulkPower
 // tuned on the development shapes with ids ≡ 1 mod 4, confirmed on ≡ 3 mod 4 (docs/method.md).
 constexpr double kNoNeck = 1.017;
 constexpr double kMostRatio = 5.0;
 constexpr double kThicknessWeight = 0.3;
-constexpr double kIsolationPower = 0.2;
+constexpr double kIsolationPower = 0.22;
 constexpr double kLeastIsolation = 0.5;
 constexpr double kUsualIsolation = 4.0;
-constexpr double kNarrowWeight = 0.2;
+constexpr double kNarrowWeight = 0.15;
 constexpr double kLeastContact = 1e-6;
-constexpr double kCreaseWeight = 0.17;
-constexpr double kSizePower = 0.2;
-constexpr double kBulkPower = 0.25;
-constexpr double kNaturalCost = 0.55;
+constexpr double kCreaseWeight = 0.22;
+constexpr double kSliceIsolation = 1.5;
+constexpr double kSlicePower = 0.15;
+constexpr double kSizePower = 0.17;
+constexpr double kBulkPower = 0.14;
+constexpr double kNaturalCost = 0.37;
 
 double ratio_of_cost(double cost) { return std::exp(std::max(cost, 0.0)); }
 
@@ -59,8 +63,12 @@ class Agglomeration {
     }
     for (const PieceContact& contact : graph.contacts) {
       contacts_[contact.a][contact.b] =
-          contacts_[contact.b][contact.a] = {std::min(contact.ratio, kMostRatio), contact.area,
-                                             contact.facets, contact.concavity, 0.0};
+          contacts_[contact.b][contact.a] = {std::min(contact.ratio, kMostRatio),
+                                             contact.area,
+                                             contact.facets,
+                                             contact.concavity,
+                                             contact.creased,
+                                             0.0};
     }
     for (std::uint32_t a = 0; a < count_; ++a) price_contacts(a);
   }
@@ -85,6 +93,7 @@ class Agglomeration {
     double area = 0.0;
     double facets = 0.0;
     double concavity = 0.0;
+    double creased = 0.0;
     double cost = 0.0;
   };
   struct Candidate {
@@ -104,13 +113,16 @@ class Agglomeration {
     const double area = std::max(contact.area, kLeastContact * section);  // may be no area at all
     const double isolation = std::min(surface_[a], surface_[b]) / area;
     const double narrow = std::max(std::log(section / area), 0.0);
-    const double concavity = contact.facets > 0.0 ? contact.concavity / contact.facets : 0.0;
+    const double facets = std::max(contact.facets, 1.0);
+    const double concavity = contact.concavity / facets;
+    const double creased = contact.creased / facets;
+    const double slice = std::min(isolation / kSliceIsolation, 1.0);
     const double share = std::min(points_[a], points_[b]) / object_points_[a];
     return ((1.0 - sight) *
                 std::pow(std::max(isolation, kLeastIsolation) / kUsualIsolation, kIsolationPower) +
             neck + kThicknessWeight * thickness + kNarrowWeight * narrow +
             kCreaseWeight * concavity * concavity) *
-           std::pow(20.0 * share, kSizePower) *
+           creased * std::pow(slice, kSlicePower) * std::pow(20.0 * share, kSizePower) *
            std::pow(std::min(3.0 * thicker / object_radius_[a], 1.0), kBulkPower);
   }
 
@@ -154,6 +166,7 @@ class Agglomeration {
         held->second.area += contact.area;
         held->second.facets += contact.facets;
         held->second.concavity += contact.concavity;
+        held->second.creased += contact.creased;
       }
       contacts_[k][a] = held->second;
     }

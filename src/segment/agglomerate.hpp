@@ -18,6 +18,7 @@ struct PieceContact {
   double area = 0.0;       ///< of the facets that they share, in squared units
   double facets = 0.0;     ///< number of them
   double concavity = 0.0;  ///< sum over them of their corners' mean concavity
+  double creased = 0.0;    ///< sum over them of the share of their corners that lies in a crease
 };
 
 /// What the cost of joining pieces is made of.

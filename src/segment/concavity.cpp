@@ -41,6 +41,11 @@ double concavity_of(const LargestBalls& balls) {
 
 }  // namespace
 
+double creased(double concavity) {
+  constexpr double kDeep = 0.1;  // tuned (docs/benchmarks.md)
+  return 1.0 - std::exp(-concavity / kDeep);
+}
+
 std::vector<double> vertex_concavity(const DelaunayComplex& complex, const Interior& interior,
                                      const std::vector<double>& lambda) {
   // A crease is one for all samples near its bottom, a slit between two layers of a scan only for

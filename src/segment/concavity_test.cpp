@@ -70,6 +70,13 @@ TEST(ConcavityTest, LayersOfAScanAreNoCreases) {
   EXPECT_LT(std::ranges::count_if(concavity, [](double c) { return c > 0.5; }), 800);
 }
 
+TEST(ConcavityTest, OnlyWhatCurvesInwardsLiesInACrease) {
+  EXPECT_EQ(creased(0.0), 0.0);
+  EXPECT_LT(creased(0.01), 0.1);
+  EXPECT_GT(creased(std::log(2.0)), 0.99);  // a gap as wide as the shape is thick
+  EXPECT_LE(creased(kMostConcave), 1.0);
+}
+
 TEST(ConcavityTest, DoesNotChangeWithScale) {
   shapes::Points points = shapes::torus(3000, 2.0, 0.7);
   const std::vector<double> small = concavity_of(shapes::run_stages(points));

@@ -16,6 +16,7 @@
 #include "segment/concavity.hpp"
 #include "segment/pieces.hpp"
 #include "segment/point_labels.hpp"
+#include "segment/rank.hpp"
 #include "segment/sight.hpp"
 
 namespace morsel {
@@ -251,6 +252,8 @@ double mean_of_corners(const DelaunayComplex& complex, std::size_t cell, int slo
 // The facets between pieces, whose contacts ascend, and between a piece and the outside.
 void measure_facets(const DelaunayComplex& complex, const std::vector<std::uint32_t>& piece_of_cell,
                     const std::vector<double>& concavity, PieceGraph& graph) {
+  std::vector<double> in_crease(concavity);
+  for (double& value : in_crease) value = creased(value);
   graph.surface.assign(graph.point_count.size(), 0.0);
   const auto pair_of = [](const PieceContact& contact) { return std::pair(contact.a, contact.b); };
   in_turn(complex.cell_count(), [&](std::size_t c) {
@@ -268,6 +271,7 @@ void measure_facets(const DelaunayComplex& complex, const std::vector<std::uint3
         contact.area += area;
         contact.facets += 1.0;
         contact.concavity += mean_of_corners(complex, c, i, concavity);
+        contact.creased += mean_of_corners(complex, c, i, in_crease);
       }
     }
   });
@@ -363,6 +367,7 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
                        vertex_concavity(complex, interior, lambda), std::move(contacts));
   tree.merges = agglomerate(graph, sight.table());
   tree.component_count = mark_significant(tree.point_count, tree.merges);
+  rank_merges(tree.point_count, tree.natural_ratio, tree.merges);
   return tree;
 }
 
