@@ -43,7 +43,8 @@ double concavity_of(const LargestBalls& balls) {
 
 double creased(double concavity) {
   constexpr double kDeep = 0.1;  // tuned (docs/benchmarks.md)
-  return 1.0 - std::exp(-concavity / kDeep);
+  const double depth = concavity / kDeep;
+  return 1.0 - std::exp(-depth * depth);
 }
 
 std::vector<double> vertex_concavity(const DelaunayComplex& complex, const Interior& interior,

@@ -19,8 +19,8 @@ namespace morsel {
                                                    const Interior& interior,
                                                    const std::vector<double>& lambda);
 
-/// How surely a sample of this concavity lies in a crease, from 0 to 1: most where the gap beyond
-/// is up to ten times as wide as the shape is thick. What curves outwards or lies flat has none.
+/// How surely a sample of this concavity lies in a crease, from 0 to 1: 0.6 where the gap beyond is
+/// ten times as wide as the shape is thick. What curves outwards or lies flat is in none.
 [[nodiscard]] double creased(double concavity);
 
 /// No vertex is more concave: sampling decides how small a ball fits into the bottom of a crease.
