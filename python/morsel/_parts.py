@@ -24,7 +24,7 @@ class Part:
 
     >>> part = shape.parts[0]
     >>> part.number, part.point_count, round(part.volume, 1)
-    (0, 1992, 4.1)
+    (0, 1989, 4.1)
     >>> [neighbour.part for neighbour in part.neighbours]
     [1]
     """
