@@ -22,8 +22,6 @@
 namespace morsel {
 namespace {
 
-// A piece or group of pieces with a smaller share of its object's points is no part of its own.
-constexpr double kSmallestShare = 0.0075;
 // Sampling moves the radii of maxima and necks by up to this share of the spacing.
 constexpr double kRadiusTolerance = 0.25;
 
@@ -115,31 +113,6 @@ std::vector<Merge> link(const DelaunayComplex& complex, const Basins& basins,
     if (groups.join(merge.a, merge.b)) merges.push_back(merge);
   }
   return merges;
-}
-
-// Says of each merge whether both sides are large enough to be parts, and counts the objects.
-std::size_t mark_significant(const std::vector<std::uint32_t>& point_count,
-                             std::vector<Merge>& merges) {
-  const std::size_t count = point_count.size();
-  UnionFind object(count);
-  for (const Merge& merge : merges) object.join(merge.a, merge.b);
-  std::vector<std::size_t> object_points(count, 0);
-  std::size_t objects = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    object_points[object.root(i)] += point_count[i];
-    objects += object.root(i) == i ? 1 : 0;
-  }
-  UnionFind groups(count);
-  std::vector<std::size_t> points(point_count.begin(), point_count.end());
-  for (Merge& merge : merges) {
-    const std::size_t a = points[groups.root(merge.a)];
-    const std::size_t b = points[groups.root(merge.b)];
-    const double needed = kSmallestShare * static_cast<double>(object_points[object.root(merge.a)]);
-    merge.significant = static_cast<double>(std::min(a, b)) >= needed;
-    groups.join(merge.a, merge.b);
-    points[groups.root(merge.a)] = a + b;
-  }
-  return objects;
 }
 
 std::vector<std::uint32_t> count_points(const DelaunayComplex& complex,
@@ -366,7 +339,8 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
       make_piece_graph(complex, pieces.piece_of_cell, tree,
                        vertex_concavity(complex, interior, lambda), std::move(contacts));
   tree.merges = agglomerate(graph, sight.table());
-  tree.component_count = mark_significant(tree.point_count, tree.merges);
+  tree.component_count = pieces.count() - tree.merges.size();
+  mark_significant(tree.point_count, tree.merges);
   rank_merges(tree.point_count, tree.natural_ratio, tree.merges);
   return tree;
 }

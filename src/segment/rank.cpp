@@ -9,6 +9,8 @@
 namespace morsel {
 namespace {
 
+// A piece or group of pieces with a smaller share of its object's points is no part of its own.
+constexpr double kSmallestShare = 0.0075;
 // worth = tanh(kSureness · ln(cost / natural cost)) · (share · share)^kSharePower
 // ratio = exp(natural cost · exp(kSpread · mean worth)); tuned like the cost (agglomerate.cpp).
 constexpr double kSureness = 0.5;
@@ -16,6 +18,31 @@ constexpr double kSharePower = 0.3;
 constexpr double kSpread = 2.0;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+// Points of the two sides of a merge and of their object.
+struct Sides {
+  double a = 0.0;
+  double b = 0.0;
+  double object = 0.0;
+};
+
+std::vector<Sides> measure_sides(const std::vector<std::uint32_t>& point_count,
+                                 const std::vector<Merge>& merges) {
+  UnionFind groups(point_count.size());
+  std::vector<double> points(point_count.begin(), point_count.end());
+  std::vector<Sides> sides;
+  for (const Merge& merge : merges) {
+    const double a = points[groups.root(merge.a)];
+    const double b = points[groups.root(merge.b)];
+    sides.push_back({a, b, 0.0});
+    groups.join(merge.a, merge.b);
+    points[groups.root(merge.a)] = a + b;
+  }
+  for (std::size_t m = 0; m < merges.size(); ++m) {
+    sides[m].object = points[groups.root(merges[m].a)];
+  }
+  return sides;
+}
 
 // What undoing a significant merge gains, and the significant merges of its two sides.
 struct Split {
@@ -27,32 +54,24 @@ struct Split {
 // In the order of the merges, so that both sides come before what joins them.
 std::vector<Split> find_splits(const std::vector<std::uint32_t>& point_count, double natural_ratio,
                                const std::vector<Merge>& merges) {
-  UnionFind objects(point_count.size());
-  for (const Merge& merge : merges) objects.join(merge.a, merge.b);
-  std::vector<double> object_points(point_count.size(), 0.0);
-  for (std::uint32_t p = 0; p < point_count.size(); ++p) {
-    object_points[objects.root(p)] += point_count[p];
-  }
+  const std::vector<Sides> sides = measure_sides(point_count, merges);
   std::vector<Split> splits;
   UnionFind groups(point_count.size());
-  std::vector<double> points(point_count.begin(), point_count.end());
   std::vector<std::uint32_t> last_split(point_count.size(), kNone);
   for (std::uint32_t m = 0; m < merges.size(); ++m) {
     const Merge& merge = merges[m];
     const std::uint32_t a = groups.root(merge.a);
     const std::uint32_t b = groups.root(merge.b);
-    const double sum = points[a] + points[b];
     std::uint32_t last = std::min(last_split[a], last_split[b]);  // a small side has none
     if (merge.significant) {
-      const double all = object_points[objects.root(a)];
+      const auto& [points_a, points_b, all] = sides[m];
       const double sureness =
           std::tanh(kSureness * std::log(std::log(merge.ratio) / std::log(natural_ratio)));
-      const double size = std::pow(points[a] / all * points[b] / all, kSharePower);
+      const double size = std::pow(points_a / all * points_b / all, kSharePower);
       last = static_cast<std::uint32_t>(splits.size());
       splits.push_back({m, sureness * size, {last_split[a], last_split[b]}});
     }
     groups.join(a, b);
-    points[groups.root(a)] = sum;
     last_split[groups.root(a)] = last;
   }
   return splits;
@@ -93,6 +112,14 @@ std::vector<Pool> pool_splits(const std::vector<Split>& splits) {
 
 }  // namespace
 
+void mark_significant(const std::vector<std::uint32_t>& point_count, std::vector<Merge>& merges) {
+  const std::vector<Sides> sides = measure_sides(point_count, merges);
+  for (std::size_t m = 0; m < merges.size(); ++m) {
+    const auto& [a, b, all] = sides[m];
+    merges[m].significant = std::min(a, b) >= kSmallestShare * all;
+  }
+}
+
 void rank_merges(const std::vector<std::uint32_t>& point_count, double natural_ratio,
                  std::vector<Merge>& merges) {
   const std::vector<Split> splits = find_splits(point_count, natural_ratio, merges);
@@ -101,10 +128,10 @@ void rank_merges(const std::vector<std::uint32_t>& point_count, double natural_r
   std::vector<bool> ranked(splits.size(), false);
   for (std::size_t s = splits.size(); s-- > 0;) {  // those above first: theirs is the larger pool
     if (ranked[s]) continue;
+    const double ratio = std::pow(natural_ratio, std::exp(kSpread * pools[s].mean()));
     for (const std::uint32_t member : pools[s].splits) {
       ranked[member] = true;
-      merges[splits[member].merge].ratio =
-          std::pow(natural_ratio, std::exp(kSpread * pools[s].mean()));
+      merges[splits[member].merge].ratio = ratio;
     }
   }
   std::ranges::stable_sort(merges, {}, &Merge::ratio);
