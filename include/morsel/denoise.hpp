@@ -22,7 +22,7 @@ struct DenoiseOptions {
   /// Outliers are set apart in any case.
   std::optional<int> rounds;
   int threads = 0;  ///< 0: all cores. The result does not depend on it.
-  /// Of more points so many go on, spread evenly; >= 1. segment() chooses it.
+  /// Of more points about so many go on, spread evenly; >= 1. segment() chooses it.
   std::size_t most_points = std::numeric_limits<std::size_t>::max();
 
   /// Throws Error(kUsage) that names field, value and range.
@@ -36,11 +36,10 @@ struct Denoised {
   std::vector<std::uint32_t> stand_in;  ///< (n) index into `points` for each input point: its own,
                                         ///< for one left out that of the nearest point kept;
                                         ///< kNoStandIn in a Segmentation for the ground's
-  std::vector<double> lambda;  ///< (m) mean distance of each of `points` to its three nearest, or
-                               ///< nothing where they were moved or few of them are left
-  double noise = 0.0;          ///< estimated standard deviation across the surface, in units
-  double spacing = 0.0;        ///< median distance to the twelfth nearest neighbour, in units
-  int rounds = 0;              ///< of smoothing that were done
+  double noise = 0.0;       ///< estimated standard deviation across the surface, in units
+  double spacing = 0.0;     ///< median distance to the twelfth nearest neighbour, in units
+  int rounds = 0;           ///< of smoothing that were done
+  double kept_share = 1.0;  ///< of the points looked at, 0 … 1: the others lay near one of `points`
   std::size_t outlier_count = 0;  ///< input points that were set apart
 };
 

@@ -28,7 +28,7 @@ def segment(points: PointsLike, parts: int | None = None, merge_ratio: float | N
         merge_ratio: instead of `parts`: merge parts below this ratio, at least 1; larger is coarser.
         method: "default", or "paper" for the published rules to the letter.
         denoise: rounds of smoothing, 0 to 20. Not given: the noise is measured and the program
-            decides. Unless it is 0, 20,000 evenly spread points stand for a larger cloud, more
+            decides. Unless it is 0, 5,500 evenly spread points stand for a larger cloud, more
             where walls are thin. The paper's method has none of both.
         ground: what becomes of a plane that objects stand on: "auto" sets it apart where it is
             unmistakable, "keep" takes it for part of an object, "remove" sets the plane apart that

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace morsel {
 namespace {
 
 constexpr std::size_t kLeafPoints = 12;  // at most
+constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
 
 // Points along the leaves of a k-d tree, each coordinate by itself, as loops over them want it.
 struct Column {
@@ -162,14 +164,15 @@ std::optional<float> find_threshold(std::span<const float> values, std::size_t w
 // Finds the neighbours of the points of one leaf after the other, on one thread.
 class Search {
  public:
-  Search(const Tree& tree, std::size_t inner, Neighborhoods& found)
-      : tree_(tree), inner_(inner), found_(found) {}
+  // Of a point those neighbours are found whose row it is; of others none.
+  Search(const Tree& tree, std::size_t inner, const std::vector<std::uint32_t>& row_of_point,
+         Neighborhoods& found)
+      : tree_(tree), inner_(inner), row_of_point_(row_of_point), found_(found) {}
 
   // Of the points from begin to end along the tree's leaves.
   void visit(std::size_t begin, std::size_t end);
 
  private:
-  static constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
   // What is taken ends here, by squared distance and then by index.
   struct Cut {
     double squared;
@@ -188,6 +191,9 @@ class Search {
   [[nodiscard]] Vec3 place(std::size_t i) const {
     const Column& column = tree_.column();
     return {column.x[i], column.y[i], column.z[i]};
+  }
+  [[nodiscard]] bool is_asked(std::size_t i) const {
+    return row_of_point_[tree_.column().index[i]] != kNoIndex;
   }
   [[nodiscard]] std::size_t middle_of(std::size_t begin, std::size_t end) const;
   void measure(const Vec3& from, const Column& to, std::size_t begin, std::size_t end);
@@ -210,6 +216,7 @@ class Search {
 
   const Tree& tree_;
   std::size_t inner_;
+  const std::vector<std::uint32_t>& row_of_point_;
   Neighborhoods& found_;
   Column near_;  // holds the neighbours of all points of a leaf
   // Of those, or of those that are taken.
@@ -287,8 +294,11 @@ void Search::visit(std::size_t begin, std::size_t end) {
   const Column& all = tree_.column();
   const std::size_t wanted = found_.size + 1;  // with the point itself
   const Vec3 center = place(middle_of(begin, end));
-  double radius = 0.0;
-  for (std::size_t i = begin; i < end; ++i) radius = std::max(radius, distance(center, place(i)));
+  double radius = -1.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (is_asked(i)) radius = std::max(radius, distance(center, place(i)));
+  }
+  if (radius < 0.0) return;
   const std::size_t first = begin - std::min(begin, 2 * wanted);
   const std::size_t last = std::min(end + 2 * wanted, all.index.size());
   measure(center, all, first, last);
@@ -305,6 +315,7 @@ void Search::visit(std::size_t begin, std::size_t end) {
   const std::size_t near = find_near(center, radius, reach);
   double guess = reach * reach;
   for (std::size_t i = begin; i < end; ++i) {
+    if (!is_asked(i)) continue;
     guess = find(i, near, bound(reach, distance(center, place(i))), guess);
   }
 }
@@ -329,6 +340,7 @@ std::size_t keep(double* squared, std::uint32_t* index, const std::uint32_t* fro
 // `most`. Returns what to guess for the next point.
 double Search::find(std::size_t i, std::size_t near, double most, double guess) {
   const std::uint32_t self = tree_.column().index[i];
+  const std::uint32_t row = row_of_point_[self];
   measure(place(i), near_, 0, near);
   double* squared = squared_.data();
   std::uint32_t* index = index_.data();
@@ -344,41 +356,47 @@ double Search::find(std::size_t i, std::size_t near, double most, double guess) 
       outer.is_clear()
           ? others([&](double value, std::uint32_t) { return outer.takes(value); })
           : others([&](double value, std::uint32_t point) { return outer.takes(value, point); });
-  const double share = static_cast<double>(inner_) / static_cast<double>(found_.size);
-  const Cut inner = find_cut(count, inner_, share * outer.squared, self);
-  std::uint32_t* to = found_.indices.data() + self * found_.size;
-  std::array<std::size_t, 2> at{inner_, 0};
-  for (std::size_t j = 0; j < count; ++j) {
-    const bool in = inner.is_clear() ? inner.takes(squared[j]) : inner.takes(squared[j], index[j]);
-    to[at[in ? 1 : 0]++] = index[j];
+  std::uint32_t* to = found_.indices.data() + row * found_.size;
+  if (inner_ == found_.size) {
+    std::copy(index, index + count, to);
+  } else {
+    const double share = static_cast<double>(inner_) / static_cast<double>(found_.size);
+    const Cut inner = find_cut(count, inner_, share * outer.squared, self);
+    std::array<std::size_t, 2> at{inner_, 0};
+    for (std::size_t j = 0; j < count; ++j) {
+      const bool in =
+          inner.is_clear() ? inner.takes(squared[j]) : inner.takes(squared[j], index[j]);
+      to[at[in ? 1 : 0]++] = index[j];
+    }
   }
-  found_.reach[self] = std::sqrt(*std::max_element(squared, squared + count));
+  found_.reach[row] = std::sqrt(*std::max_element(squared, squared + count));
   return outer.squared;
-}
-
-double largest_coordinate(std::span<const Vec3> points) {
-  double largest = 0.0;
-  for (const Vec3& p : points) {
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  return largest;
 }
 
 }  // namespace
 
 Neighborhoods find_neighborhoods(std::span<const Vec3> points, std::size_t size, int threads,
                                  std::size_t inner) {
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  return find_neighborhoods_of(all, points, size, threads, inner);
+}
+
+Neighborhoods find_neighborhoods_of(std::span<const std::uint32_t> of, std::span<const Vec3> points,
+                                    std::size_t size, int threads, std::size_t inner) {
   Neighborhoods result;
   result.size = std::min(size, points.empty() ? 0 : points.size() - 1);
-  result.indices.resize(points.size() * result.size);
-  result.reach.resize(points.size());
+  result.indices.resize(of.size() * result.size);
+  result.reach.resize(of.size());
   if (result.size == 0) return result;
+  std::vector<std::uint32_t> row_of_point(points.size(), kNoIndex);
+  for (std::uint32_t row = 0; row < of.size(); ++row) row_of_point[of[row]] = row;
   constexpr std::size_t kLeavesARow = 256;
   const double scale = unit_scale(largest_coordinate(points));
   const Tree tree(points, scale);
   const std::size_t rows = (tree.leaf_count() + kLeavesARow - 1) / kLeavesARow;
   parallel_rows(rows, threads, [&](std::size_t row) {
-    Search search(tree, std::min(inner, result.size), result);
+    Search search(tree, std::min(inner, result.size), row_of_point, result);
     const std::size_t end = std::min((row + 1) * kLeavesARow, tree.leaf_count());
     for (std::size_t leaf = row * kLeavesARow; leaf < end; ++leaf) {
       search.visit(tree.begin_of_leaf(leaf), tree.begin_of_leaf(leaf + 1));

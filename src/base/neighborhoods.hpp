@@ -32,6 +32,12 @@ struct Neighborhoods {
   return find_neighborhoods(points, size, threads, size);
 }
 
+/// Likewise of some of the points: a row for each of `of`, which names none twice. Cost: that of
+/// laying out all points, O(n log n), and O(log n) for each.
+[[nodiscard]] Neighborhoods find_neighborhoods_of(std::span<const std::uint32_t> of,
+                                                  std::span<const Vec3> points, std::size_t size,
+                                                  int threads, std::size_t inner);
+
 /// The three least of some distances.
 class ThreeLeast {
  public:

@@ -155,5 +155,28 @@ TEST(NeighborhoodsTest, NearestOfAnotherCloud) {
   EXPECT_TRUE(find_nearest(points, {}, 1).empty());
 }
 
+TEST(NeighborhoodsTest, SomeAreFoundAsAllAre) {
+  const Points points = shapes::sphere(3000);
+  std::vector<std::uint32_t> of;
+  for (std::uint32_t i = 0; i < points.size(); i += 7) of.push_back(i);
+  const Neighborhoods all = find_neighborhoods(points, 20, 1, 8);
+  const Neighborhoods some = find_neighborhoods_of(of, points, 20, 2, 8);
+  ASSERT_EQ(some.size, 20U);
+  ASSERT_EQ(some.reach.size(), of.size());
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    const auto found = some.of(k);
+    const auto expected = all.of(of[k]);
+    EXPECT_TRUE(std::ranges::is_permutation(found, expected)) << k;
+    EXPECT_EQ(some.reach[k], all.reach[of[k]]);
+    EXPECT_TRUE(std::ranges::is_permutation(found.first(8), expected.first(8))) << k;
+  }
+}
+
+TEST(NeighborhoodsTest, SomeOfFewPoints) {
+  const Points points = shapes::cube_cloud(5);
+  EXPECT_EQ(find_neighborhoods_of(std::vector<std::uint32_t>{2}, points, 20, 1, 20).size, 4U);
+  EXPECT_EQ(find_neighborhoods_of({}, {}, 20, 1, 20).size, 0U);
+}
+
 }  // namespace
 }  // namespace morsel

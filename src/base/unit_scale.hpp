@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <morsel/vec3.hpp>
+#include <span>
 
 namespace morsel {
 
@@ -10,6 +12,14 @@ namespace morsel {
 inline double unit_scale(double size) {
   constexpr int kMost = 1000;  // a double too
   return size > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -kMost, kMost)) : 1.0;
+}
+
+inline double largest_coordinate(std::span<const Vec3> points) {
+  double largest = 0.0;
+  for (const Vec3& p : points) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return largest;
 }
 
 }  // namespace morsel

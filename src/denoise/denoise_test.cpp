@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/neighborhoods.hpp"
 #include "base/test_shapes.hpp"
 
 namespace morsel {
@@ -31,7 +32,7 @@ void expect_sound(const Points& input, const Denoised& denoised) {
 void expect_same(const Denoised& a, const Denoised& b) {
   EXPECT_TRUE(a.points == b.points);
   EXPECT_TRUE(a.stand_in == b.stand_in);
-  EXPECT_TRUE(a.lambda == b.lambda);
+  EXPECT_EQ(a.kept_share, b.kept_share);
   EXPECT_EQ(a.noise, b.noise);
   EXPECT_EQ(a.spacing, b.spacing);
   EXPECT_EQ(a.rounds, b.rounds);
@@ -53,23 +54,6 @@ TEST(DenoiseTest, CleanSamplesStayAsTheyAre) {
     }
     EXPECT_EQ(stood_in, denoised.outlier_count);
   }
-}
-
-TEST(DenoiseTest, LambdaIsOfThePointsKept) {
-  Points points = shapes::torus(2000, 2.0, 0.7);
-  for (int i = 0; i < 20; ++i) points.push_back({0.0, 0.0, 1.0 + 0.01 * i * i});  // outliers
-  const Denoised denoised = denoise(points);
-  ASSERT_LT(denoised.points.size(), points.size());
-  ASSERT_EQ(denoised.lambda.size(), denoised.points.size());
-  for (std::size_t i = 0; i < denoised.points.size(); ++i) {
-    std::vector<double> distances;
-    for (const Vec3& p : denoised.points) distances.push_back(distance(denoised.points[i], p));
-    std::ranges::sort(distances);  // the point itself comes first
-    EXPECT_EQ(denoised.lambda[i], (distances[1] + distances[2] + distances[3]) / 3.0) << i;
-  }
-  EXPECT_TRUE(denoise(points, {.rounds = 1}).lambda.empty());
-  EXPECT_TRUE(denoise(shapes::noisy(points, 0.05)).lambda.empty());
-  EXPECT_TRUE(denoise(Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).lambda.empty());
 }
 
 TEST(DenoiseTest, NoisySphereComesCloserToItsSurface) {
@@ -141,18 +125,40 @@ TEST(DenoiseTest, OfMorePointsSoManyGoOn) {
     points.push_back(p + Vec3{2.0, 2.0, 2.0});
   }
   const Denoised all = denoise(points);
-  const Denoised some = denoise(points, {.rounds = {}, .threads = 2, .most_points = 3100});
-  expect_sound(points, some);
-  EXPECT_NEAR(static_cast<double>(some.points.size()), 3000.0, 50.0);
-  // All outliers count, those that were not looked at too.
-  EXPECT_NEAR(static_cast<double>(some.outlier_count), static_cast<double>(all.outlier_count),
-              60.0);
-  for (std::size_t i = 0; i < clean.size(); ++i) {
-    EXPECT_LT(distance(clean[i], some.points[some.stand_in[i]]), 0.3);
+  EXPECT_EQ(all.kept_share, 1.0);
+  for (const std::size_t most : {500, 3000, 8000}) {
+    const Denoised some = denoise(points, {.rounds = {}, .threads = 2, .most_points = most});
+    expect_sound(points, some);
+    const auto count = static_cast<double>(some.points.size());
+    EXPECT_NEAR(count, static_cast<double>(most), 0.1 * static_cast<double>(most));
+    EXPECT_NEAR(some.kept_share, count / std::min(4.0 * static_cast<double>(most), 9000.0), 0.01);
+    // All outliers count, those that were not looked at too.
+    EXPECT_NEAR(static_cast<double>(some.outlier_count), static_cast<double>(all.outlier_count),
+                60.0);
+    for (std::size_t i = 0; i < clean.size(); ++i) {
+      EXPECT_LT(distance(clean[i], some.points[some.stand_in[i]]), 8.0 / std::sqrt(count));
+    }
+    expect_same(some, denoise(points, {.rounds = {}, .threads = 1, .most_points = most}));
   }
-  expect_same(some, denoise(points, {.rounds = {}, .threads = 1, .most_points = 3100}));
   EXPECT_EQ(denoise(points, {.rounds = {}, .threads = 0, .most_points = 9300}).points, all.points);
   EXPECT_THROW((void)denoise(points, {.rounds = {}, .threads = 0, .most_points = 0}), Error);
+}
+
+TEST(DenoiseTest, PointsThatGoOnKeepApart) {
+  const double sigma = 0.003 * 2.0 * std::sqrt(3.0);  // 0.3% of the diagonal
+  for (const double noise : {0.0, sigma}) {
+    const Points points = shapes::noisy(shapes::sphere(20000), noise);
+    const Denoised some = denoise(points, {.rounds = {}, .threads = 0, .most_points = 5000});
+    EXPECT_EQ(some.rounds > 0, noise > 0.0);
+    EXPECT_LT(rms_off_unit_sphere(some.points), 0.4 * noise + 1e-9);
+    // Of as many random points 30% have a neighbour within 0.6 of the radius of one's room.
+    const auto count = static_cast<double>(some.points.size());
+    const double room = 2.0 / std::sqrt(count);
+    const Neighborhoods nearest = find_neighborhoods(some.points, 1, 0);
+    const auto close =
+        std::ranges::count_if(nearest.reach, [&](double r) { return r < 0.6 * room; });
+    EXPECT_LT(static_cast<double>(close), (noise > 0.0 ? 0.06 : 0.01) * count);
+  }
 }
 
 TEST(DenoiseTest, RepeatedPointsShareTheirStandIn) {

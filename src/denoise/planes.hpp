@@ -54,13 +54,21 @@ template <typename Offset>
   return {normal.direction, std::sqrt(normal.sum / size)};
 }
 
-/// The planes through each point and its nearest neighbours.
+/// The plane through a point and some others.
+[[nodiscard]] LocalPlane plane_at(std::span<const Vec3> points, std::uint32_t point,
+                                  std::span<const std::uint32_t> neighbors);
+
+/// The planes through some points and their nearest neighbours.
 struct Planes {
-  std::vector<Vec3> normal;      ///< (n) unit; their signs mean nothing
-  std::vector<double> residual;  ///< (n) root mean square distance of the points from the plane
+  std::vector<Vec3> normal;      ///< (m) unit; their signs mean nothing
+  std::vector<double> residual;  ///< (m) root mean square distance of the points from the plane
 };
 
-/// Fits them to each point and the `size` nearest of its neighbours. Cost: O(n · size).
+/// Fits them to the points named by `of`, m indices, and the `size` first of their neighbours, a
+/// row for each of them. Cost: O(m · size).
+[[nodiscard]] Planes fit_planes(std::span<const Vec3> points, std::span<const std::uint32_t> of,
+                                const Neighborhoods& neighborhoods, std::size_t size, int threads);
+/// Likewise to all points.
 [[nodiscard]] Planes fit_planes(std::span<const Vec3> points, const Neighborhoods& neighborhoods,
                                 std::size_t size, int threads);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <morsel/error.hpp>
+#include <numeric>
 
 #include "base/cancel.hpp"
 #include "base/neighborhoods.hpp"
@@ -17,10 +18,17 @@ namespace {
 
 using shapes::Points;
 
-Points smoothed(Points points, int rounds = 3) {
-  smooth(points, rounds, 0);
-  return points;
+// All of them go on.
+Cover whole(const Points& points) {
+  Cover cover;
+  cover.points = points;
+  cover.kept.resize(points.size());
+  std::iota(cover.kept.begin(), cover.kept.end(), 0);
+  cover.by = cover.kept;
+  return cover;
 }
+
+Points smoothed(const Points& points, int rounds = 3) { return smooth(whole(points), rounds, 0); }
 
 double mean_radius(const Points& points) {
   double sum = 0.0;
@@ -133,12 +141,28 @@ TEST(SmoothTest, NoRoundsMoveNothing) {
   EXPECT_EQ(smoothed(points, 0), points);
 }
 
+TEST(SmoothTest, OfACoverThoseKeptAreMoved) {
+  const Points points = shapes::noisy(shapes::sphere(8000), 0.02);
+  const Cover cover = cover_cloud(points, 2000, 12, 0);
+  Points alone;
+  for (const std::uint32_t i : cover.kept) alone.push_back(cover.points[i]);
+  const auto off = [](const Points& some) {
+    double sum = 0.0;
+    for (const Vec3& p : some) sum += (norm(p) - 1.0) * (norm(p) - 1.0);
+    return std::sqrt(sum / static_cast<double>(some.size()));
+  };
+  const Points together = smooth(cover, 3, 2);
+  EXPECT_EQ(together.size(), alone.size());
+  EXPECT_LT(off(together), 0.4 * off(alone));
+  EXPECT_EQ(together, smooth(cover, 3, 1));
+}
+
 TEST(SmoothTest, CanBeCancelled) {
-  Points points = shapes::noisy(shapes::sphere(500), 0.02);
+  const Points points = shapes::noisy(shapes::sphere(500), 0.02);
   Progress progress;
   progress.cancel();
   const CancelScope scope(&progress);
-  EXPECT_THROW(smooth(points, 1, 0), Error);
+  EXPECT_THROW((void)smoothed(points, 1), Error);
 }
 
 TEST(PlanesTest, NormalAndResidualOfAKnownPatch) {

@@ -38,33 +38,48 @@ Support support_of(std::span<const Vec3> points, const GroundPlane& plane) {
   return support;
 }
 
-// A few points, each coordinate by itself: many planes are held against them.
+// A few points, each coordinate by itself: many planes are held against them. The first of them are
+// spread as evenly as all.
 class Jury {
  public:
   explicit Jury(const std::vector<Vec3>& points) {
-    for (const Vec3& p : points) {
-      x_.push_back(p.x);
-      y_.push_back(p.y);
-      z_.push_back(p.z);
+    for (std::size_t first = 0; first < kTurns; ++first) {
+      for (std::size_t i = first; i < points.size(); i += kTurns) {
+        x_.push_back(points[i].x);
+        y_.push_back(points[i].y);
+        z_.push_back(points[i].z);
+      }
     }
   }
 
-  // As support_of(), in a loop without branches.
-  [[nodiscard]] Support support_of(const GroundPlane& plane) const {
+  // What speaks for the plane of the ground; 0 if the first of them find nothing, as most often.
+  [[nodiscard]] double value_of(const GroundPlane& plane) const {
+    const auto value = [&](std::size_t count) {
+      const Support support = support_of(plane, count);
+      return support.on - std::min(support.above, support.beneath);
+    };
+    if (x_.size() >= kJury && !(value(kJury / kTurns) > 0.0)) return 0.0;
+    return value(x_.size());
+  }
+
+ private:
+  static constexpr std::size_t kTurns = 4;
+
+  // As the other support_of(), of the first `count`, in a loop without branches.
+  [[nodiscard]] Support support_of(const GroundPlane& plane, std::size_t count) const {
     const auto is_negative = [](double value) { return std::bit_cast<std::uint64_t>(value) >> 63; };
     const auto [nx, ny, nz] = plane.normal;
     std::uint64_t above = 0;
     std::uint64_t beneath = 0;
-    for (std::size_t i = 0; i < x_.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const double height = nx * x_[i] + ny * y_[i] + nz * z_[i] - plane.offset;
       above += is_negative(plane.thickness - height);
       beneath += is_negative(height + plane.thickness);
     }
-    return {static_cast<double>(x_.size() - above - beneath), static_cast<double>(above),
+    return {static_cast<double>(count - above - beneath), static_cast<double>(above),
             static_cast<double>(beneath)};
   }
 
- private:
   std::vector<double> x_, y_, z_;
 };
 
@@ -83,8 +98,7 @@ std::optional<GroundPlane> guess_plane(std::span<const Vec3> points, double reac
     if (!(length > 0.0)) continue;
     GroundPlane plane{(1.0 / length) * normal, 0.0, reach};
     plane.offset = dot(plane.normal, a);
-    const Support support = jury.support_of(plane);
-    const double value = support.on - std::min(support.above, support.beneath);
+    const double value = jury.value_of(plane);
     if (value <= most) continue;
     most = value;
     best = plane;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <morsel/morsel.hpp>
 #include <utility>
 
@@ -77,14 +78,13 @@ Denoised denoise_objects(std::span<const Vec3> points, const Ground& ground,
   return result;
 }
 
-// λ of each vertex: known from the denoising where the points are still what they were then.
-std::vector<double> find_lambda(const DelaunayComplex& complex, const Denoised& denoised,
-                                int threads) {
-  if (denoised.lambda.empty()) return mean_neighbor_distance(complex, threads);
-  std::vector<double> lambda(complex.vertices.size());
-  for (std::size_t i = 0; i < denoised.lambda.size(); ++i) {
-    lambda[complex.vertex_of_point[i]] = denoised.lambda[i];
-  }
+// λ of each vertex as of random points, by which the constants were tuned: those spread evenly have
+// none very near, so that λ of as many is larger, and the gaps between them are smaller.
+std::vector<double> find_lambda(const DelaunayComplex& complex, double kept_share, int threads) {
+  constexpr double kEvenPower = 0.3;
+  const double evenness = std::pow(kept_share, kEvenPower);
+  std::vector<double> lambda = mean_neighbor_distance(complex, threads);
+  for (double& value : lambda) value *= evenness;
   return lambda;
 }
 
@@ -187,9 +187,9 @@ std::string describe(const Segmentation& s) {
   return text;
 }
 
-// More points than these, evenly spread, make worse parts rather than better ones; thin walls may
-// need more, which shows in the surface that has no inside behind it.
-constexpr std::size_t kEnoughPoints = 20000;
+// More points than these, evenly spread, make no better parts; thin walls may need more, which
+// shows in the surface that has no inside behind it.
+constexpr std::size_t kEnoughPoints = 5500;
 constexpr std::size_t kManyMore = 4;
 constexpr double kLostSurface = 0.02;
 
@@ -221,8 +221,9 @@ Attempt attempt(std::span<const Vec3> points, const Ground& ground, std::size_t 
   a.complex = stages.run("triangulate", 0.2, [&] {
     return triangulate(a.denoised.points, {options.threads}, progress);
   });
-  a.lambda = stages.run("neighbors", 0.7,
-                        [&] { return find_lambda(a.complex, a.denoised, options.threads); });
+  a.lambda = stages.run("neighbors", 0.7, [&] {
+    return find_lambda(a.complex, a.denoised.kept_share, options.threads);
+  });
   a.complex.vertex_of_point = vertices_of_input(a.complex, a.denoised);
   a.vertex_cells = find_vertex_cells(a.complex);
   a.interior = stages.run("interior", 0.75, [&] {
