@@ -46,7 +46,7 @@ struct Signature {
 /// Describes a shape. Rotating, moving, scaling or mirroring the input changes the tables by
 /// rounding alone and turns the parts along. A cloud without an inside has no parts and the
 /// tables of its points only; one that is flat has an empty signature (size 0).
-/// Cost: O(c log c), a tenth of the triangulation. Thread-safe.
+/// Cost: O(c log c), a fifth of the triangulation. Thread-safe.
 [[nodiscard]] Signature make_signature(const DelaunayComplex& complex, const Basins& basins,
                                        const Parts& parts, int threads = 0);
 
