@@ -68,12 +68,14 @@ SpatialOrder sort_spatially(std::span<const Vec3> points, int threads) {
   SpatialOrder order;
   order.points.reserve(points.size());
   order.order_of_point.resize(points.size());
-  for (const Entry& entry : sorted_entries(points, threads)) {
+  const std::vector<Entry> entries = sorted_entries(points, threads);
+  in_turn(entries.size(), [&](std::size_t i) {
+    const Entry& entry = entries[i];
     if (order.points.empty() || !(order.points.back() == entry.point)) {
       order.points.push_back(entry.point);
     }
     order.order_of_point[entry.index] = static_cast<std::uint32_t>(order.points.size() - 1);
-  }
+  });
   return order;
 }
 

@@ -10,6 +10,7 @@
 #include "base/neighborhoods.hpp"
 #include "base/quantile.hpp"
 #include "base/spatial_order.hpp"
+#include "base/threads.hpp"
 #include "denoise/cover.hpp"
 #include "denoise/planes.hpp"
 #include "denoise/smooth.hpp"
@@ -46,7 +47,8 @@ SpatialOrder choose_candidates(std::size_t count, const SpatialOrder& all, int t
   }
   const std::vector<std::uint32_t> nearest = find_nearest(chosen.points, all.points, threads);
   chosen.order_of_point.reserve(all.order_of_point.size());
-  for (const std::uint32_t i : all.order_of_point) chosen.order_of_point.push_back(nearest[i]);
+  in_turn(all.order_of_point.size(),
+          [&](std::size_t i) { chosen.order_of_point.push_back(nearest[all.order_of_point[i]]); });
   return chosen;
 }
 
@@ -71,12 +73,12 @@ Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
   }
   const Cover cover = cover_cloud(order.points, most, kNeighbors, options.threads);
   Denoised result;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  in_turn(points.size(), [&](std::size_t i) {
     const std::uint32_t own = order.order_of_point[i];
     result.stand_in.push_back(cover.stand_in[own]);
     const bool is_far = distance(points[i], order.points[own]) > cover.far;
     result.outlier_count += cover.is_outlier[own] || is_far ? 1 : 0;
-  }
+  });
   if (cover.points.size() > kNeighbors) {
     result.noise = estimate_noise(cover);
     result.spacing = quantile(cover.neighborhoods.reach, 0.5);
