@@ -9,7 +9,6 @@
 #include "base/cancel.hpp"
 #include "base/neighbor_search.hpp"
 #include "base/quantile.hpp"
-#include "base/threads.hpp"
 
 namespace morsel {
 namespace {
@@ -49,19 +48,22 @@ class Covering {
         squared_(points.size(), kInfinity),
         is_outlier_(points.size(), false) {
     found_.size = std::min(size, points.empty() ? 0 : points.size() - 1);
-    if (points.size() > most) {
+    const bool all = points.size() <= most;
+    if (all) {
+      keep_all(threads);
+    } else {
       const double beyond = static_cast<double>(points.size()) / static_cast<double>(most) - 1.0;
       // The disc that reaches to the k-th nearest holds about k.
       share_ = beyond / kCovered / static_cast<double>(std::max<std::size_t>(found_.size, 1));
       keep_evenly();
-    } else {
-      keep_all(threads);
     }
     far_ = kFromCloud * quantile(found_.reach, 0.9);
     // What stood in the shade of an outlier is looked at again.
-    for (std::size_t judged = 0; drop_outliers(judged);) {
-      judged = kept_.size();
+    bool shaded = drop_outliers(0) && !all;
+    while (shaded) {
+      const std::size_t judged = kept_.size();
       keep_evenly();
+      shaded = drop_outliers(judged);
     }
   }
 
@@ -114,7 +116,9 @@ class Covering {
         return by_[j] != kNone && kFromNeighbors * reach[by_[j]] < reach[row];
       });
       drop[row] = reach[row] > far_ || static_cast<std::size_t>(small) >= half;
-      if (drop[row]) any = is_outlier_[kept_[row]] = true;
+      if (!drop[row]) continue;
+      is_outlier_[kept_[row]] = true;
+      any = true;
     }
     for (std::size_t i = 0; any && i < points_.size(); ++i) {
       if (by_[i] == kNone || !drop[by_[i]]) continue;
@@ -136,8 +140,7 @@ class Covering {
   std::vector<bool> is_outlier_;
 };
 
-// What stands for each outlier: as for the nearest of its neighbours that are none, or the nearest
-// of all that are kept.
+// What stands for each outlier: the nearest of all that are kept.
 void find_stand_ins(std::span<const Vec3> points, const std::vector<std::uint32_t>& outliers,
                     const std::vector<Vec3>& kept, int threads,
                     std::vector<std::uint32_t>& stand_in) {
@@ -169,12 +172,10 @@ Cover Covering::result(int threads) const {
   std::ranges::sort(rows, {}, [&](std::uint32_t row) { return kept_[row]; });
   std::vector<std::uint32_t> place_of_row(kept_.size(), kNone);  // in cover.kept
   cover.neighborhoods.size = found_.size;
-  std::vector<Vec3> kept_points;
   for (const std::uint32_t row : rows) {
     const std::uint32_t i = kept_[row];
     place_of_row[row] = static_cast<std::uint32_t>(cover.kept.size());
     cover.kept.push_back(place[i]);
-    kept_points.push_back(points_[i]);
     cover.neighborhoods.reach.push_back(found_.reach[row]);
     for (const std::uint32_t j : found_.of(row)) {
       cover.neighborhoods.indices.push_back(place[is_outlier_[j] ? i : j]);
@@ -186,7 +187,9 @@ Cover Covering::result(int threads) const {
     cover.stand_in[i] = place_of_row[by_[i]];
     cover.by.push_back(cover.stand_in[i]);
   }
-  if (!kept_points.empty()) find_stand_ins(points_, outliers, kept_points, threads, cover.stand_in);
+  if (!outliers.empty()) {
+    find_stand_ins(points_, outliers, cover.kept_points(), threads, cover.stand_in);
+  }
   return cover;
 }
 

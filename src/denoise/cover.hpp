@@ -21,6 +21,19 @@ struct Cover {
   std::vector<bool> is_outlier;         ///< (n)
   std::vector<std::uint32_t> stand_in;  ///< (n) index into `kept`, of outliers too
   double far = 0.0;                     ///< what is so far from all others is an outlier, in units
+
+  /// (m) Those that go on.
+  [[nodiscard]] std::vector<Vec3> kept_points() const {
+    std::vector<Vec3> result;
+    result.reserve(kept.size());
+    for (const std::uint32_t i : kept) result.push_back(points[i]);
+    return result;
+  }
+  /// m / k; 1 of none.
+  [[nodiscard]] double kept_share() const {
+    return points.empty() ? 1.0
+                          : static_cast<double>(kept.size()) / static_cast<double>(points.size());
+  }
 };
 
 /// Sets outliers apart and keeps about `most` of the other points, or all if there are no more. A

@@ -1,10 +1,7 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <morsel/denoise.hpp>
 #include <morsel/error.hpp>
 #include <string>
-#include <utility>
 
 #include "base/cancel.hpp"
 #include "base/neighborhoods.hpp"
@@ -86,10 +83,7 @@ Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
     result.rounds = options.rounds.value_or(is_noisy ? kRounds : 0);
   }
   result.points = smooth(cover, result.rounds, options.threads);
-  if (!result.points.empty()) {
-    result.kept_share =
-        static_cast<double>(result.points.size()) / static_cast<double>(cover.points.size());
-  }
+  result.kept_share = cover.kept_share();
   return result;
 }
 

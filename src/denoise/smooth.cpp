@@ -204,9 +204,7 @@ struct Sizes {
 }  // namespace
 
 std::vector<Vec3> smooth(const Cover& cover, int rounds, int threads) {
-  std::vector<Vec3> points;
-  points.reserve(cover.kept.size());
-  for (const std::uint32_t i : cover.kept) points.push_back(cover.points[i]);
+  std::vector<Vec3> points = cover.kept_points();
   if (rounds == 0 || points.empty()) return points;
   const bool all = points.size() == cover.points.size();
   const Sizes wide(1.0);
@@ -216,15 +214,14 @@ std::vector<Vec3> smooth(const Cover& cover, int rounds, int threads) {
   std::vector<Vec3> moved = smooth_once(first, threads);
   if (moved.empty()) return points;
   points = std::move(moved);
+  if (rounds == 1) return points;
   std::vector<std::uint32_t> own(points.size());
   std::iota(own.begin(), own.end(), 0);
-  const Sizes sizes(static_cast<double>(points.size()) / static_cast<double>(cover.points.size()));
+  const Sizes sizes(cover.kept_share());
   Stage rest{points, own, own, {}, sizes.inner, all ? first.height_width : 0.0};
+  // Neighbours are found anew once: the first round moves the points most.
+  rest.neighborhoods = find_neighborhoods(points, sizes.all, threads, sizes.inner);
   for (int round = 1; round < rounds; ++round) {
-    // Neighbours are found anew once: the first round moves the points most.
-    if (round == 1) {
-      rest.neighborhoods = find_neighborhoods(points, sizes.all, threads, sizes.inner);
-    }
     moved = smooth_once(rest, threads);
     if (moved.empty()) break;
     points = std::move(moved);

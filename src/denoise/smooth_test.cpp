@@ -144,8 +144,7 @@ TEST(SmoothTest, NoRoundsMoveNothing) {
 TEST(SmoothTest, OfACoverThoseKeptAreMoved) {
   const Points points = shapes::noisy(shapes::sphere(8000), 0.02);
   const Cover cover = cover_cloud(points, 2000, 12, 0);
-  Points alone;
-  for (const std::uint32_t i : cover.kept) alone.push_back(cover.points[i]);
+  const Points alone = cover.kept_points();
   const auto off = [](const Points& some) {
     double sum = 0.0;
     for (const Vec3& p : some) sum += (norm(p) - 1.0) * (norm(p) - 1.0);

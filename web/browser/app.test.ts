@@ -210,7 +210,9 @@ describe('look-alikes', () => {
   test('its parts open in the viewer', async () => {
     const page = await open(like(kShapes[0]));
     await page.getByRole('link', { name: 'Look at its parts' }).click();
-    await page.getByRole('slider', { name: 'How many parts' }).waitFor();
+    const slider = page.getByRole('slider', { name: 'How many parts' });
+    await slider.waitFor();
+    expect(await slider.count()).toBe(1);
     expect(await page.getByText(/Drawn with .* of .* points/).count()).toBe(1);
     await drawn(page);
     const colors = await colorsOf(await page.locator('.stage').screenshot());
