@@ -15,6 +15,7 @@
 #include <morsel/morsel.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -148,11 +149,10 @@ struct Measured {
   }
   // Of one thread, all but the triangulation and what comes before it.
   [[nodiscard]] double rest() const {
+    constexpr std::array<std::string_view, 4> kBefore{"sort", "ground", "denoise", "triangulate"};
     double sum = 0.0;
     for (const auto& stage : runs[kOneThread].front().at("stages").items()) {
-      if (stage.key() == "ground" || stage.key() == "denoise" || stage.key() == "triangulate") {
-        continue;
-      }
+      if (std::ranges::count(kBefore, stage.key()) > 0) continue;
       sum += ratio(kOneThread, "/stages/" + stage.key());
     }
     return sum;
@@ -353,9 +353,10 @@ void add_scaling(CLI::App& app) {
       ->check(CLI::ExistingFile);
   command->footer(
       "Kept are the points that were triangulated. Rest is what one thread needs apart from "
-      "ground,\n"
-      "denoising and triangulation. Memory is the peak of the whole process. Stop is the longest\n"
-      "that it went on after it was asked to stop, at 20 moments.");
+      "sorting, "
+      "ground, "
+      "denoising\nand triangulation. Memory is the peak of the whole process. Stop is the longest "
+      "that it went\non after it was asked to stop, at 20 moments.");
   command->callback([options] { run(*options); });
 }
 

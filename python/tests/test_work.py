@@ -11,7 +11,7 @@ import pytest
 import morsel
 import shapes
 
-STAGES = ["ground", "denoise", "triangulate", "neighbors", "interior", "basins", "merge", "cut",
+STAGES = ["sort", "ground", "denoise", "triangulate", "neighbors", "interior", "basins", "merge", "cut",
           "done"]
 
 
@@ -46,7 +46,7 @@ def test_a_callback_that_raises_cancels(large):
 
     with pytest.raises(LookupError, match="enough"):
         morsel.segment(large, progress=stop)
-    assert heard == ["ground"]
+    assert heard == ["sort"]
     with pytest.raises(TypeError):
         morsel.segment(large, progress=3)
 

@@ -1,6 +1,7 @@
 // A canonical order of points that depends on their coordinates alone and keeps neighbours close.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <morsel/vec3.hpp>
 #include <span>
@@ -19,5 +20,8 @@ struct SpatialOrder {
 /// point that is not finite: every stage that takes bare points begins here.
 /// Cost: O(n log n), O(n) where they are in order already.
 [[nodiscard]] SpatialOrder sort_spatially(std::span<const Vec3> points, int threads = 1);
+
+/// Every k-th, `most` at most: of points along the curve, evenly from everywhere.
+[[nodiscard]] std::vector<Vec3> evenly_chosen(std::span<const Vec3> points, std::size_t most);
 
 }  // namespace morsel

@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -135,16 +137,16 @@ std::vector<Value> parallel_collect(std::size_t count, int threads, const Collec
   return values;
 }
 
-/// Sorts by operator<, which must tell any two different values apart, for one result in every run.
+/// Sorts by `before`, which must tell any two different values apart, for one result in every run.
 /// Values hold no memory of their own: they are left in any order when the sorting is cancelled.
 /// A piece for each thread is sorted, then neighbouring ones are merged.
-template <typename Value>
-void parallel_sort(std::vector<Value>& values, int threads) {
+template <typename Value, typename Before = std::less<Value>>
+void parallel_sort(std::span<Value> values, int threads, const Before& before = {}) {
   constexpr std::size_t kWorthwhile = 4096;
   threads = values.size() < kWorthwhile ? 1 : resolve_threads(threads);
-  const auto less = [whose = CancelScope::current()](const Value& a, const Value& b) {
+  const auto less = [whose = CancelScope::current(), &before](const Value& a, const Value& b) {
     if (whose != nullptr) whose->check();
-    return a < b;
+    return before(a, b);
   };
   const std::size_t pieces = std::bit_ceil(static_cast<std::size_t>(threads));
   const auto at = [&](std::size_t piece) {
@@ -157,6 +159,10 @@ void parallel_sort(std::vector<Value>& values, int threads) {
       std::inplace_merge(at(first), at(first + width), at(first + 2 * width), less);
     });
   }
+}
+template <typename Value>
+void parallel_sort(std::vector<Value>& values, int threads) {
+  parallel_sort(std::span(values), threads);
 }
 
 /// Work for at most `threads` − 1 threads beside the caller's, who may go on meanwhile and does

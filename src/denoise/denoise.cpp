@@ -1,12 +1,12 @@
+#include "denoise/denoise.hpp"
+
 #include <algorithm>
-#include <morsel/denoise.hpp>
 #include <morsel/error.hpp>
 #include <string>
 
 #include "base/cancel.hpp"
 #include "base/neighborhoods.hpp"
 #include "base/quantile.hpp"
-#include "base/spatial_order.hpp"
 #include "base/threads.hpp"
 #include "denoise/cover.hpp"
 #include "denoise/planes.hpp"
@@ -36,19 +36,6 @@ double estimate_noise(const Cover& cover) {
   return quantile(residuals, 0.2);
 }
 
-// `count` of the points, spread evenly along the curve; each answers for those nearest to it.
-SpatialOrder choose_candidates(std::size_t count, const SpatialOrder& all, int threads) {
-  SpatialOrder chosen;
-  for (std::size_t k = 0; k < count; ++k) {
-    chosen.points.push_back(all.points[k * all.points.size() / count]);
-  }
-  const std::vector<std::uint32_t> nearest = find_nearest(chosen.points, all.points, threads);
-  chosen.order_of_point.reserve(all.order_of_point.size());
-  in_turn(all.order_of_point.size(),
-          [&](std::size_t i) { chosen.order_of_point.push_back(nearest[all.order_of_point[i]]); });
-  return chosen;
-}
-
 }  // namespace
 
 void DenoiseOptions::check() const {
@@ -63,17 +50,29 @@ Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
                  const Progress* progress) {
   options.check();
   const CancelScope scope(progress);
+  return denoise(sort_spatially(points, options.threads), options, progress);
+}
+
+Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options,
+                 const Progress* progress) {
+  const CancelScope scope(progress);
   const std::size_t most = options.most_points;
-  SpatialOrder order = sort_spatially(points, options.threads);
-  if (order.points.size() / kCandidates > most) {
-    order = choose_candidates(kCandidates * most, order, options.threads);
+  const bool all = order.points.size() / kCandidates <= most;
+  std::vector<Vec3> chosen;
+  std::vector<std::uint32_t> nearest;  // of the chosen, to each point
+  if (!all) {
+    chosen = evenly_chosen(order.points, kCandidates * most);
+    nearest = find_nearest(chosen, order.points, options.threads);
   }
-  const Cover cover = cover_cloud(order.points, most, kNeighbors, options.threads);
+  const std::vector<Vec3>& candidates = all ? order.points : chosen;
+  const Cover cover = cover_cloud(candidates, most, kNeighbors, options.threads);
   Denoised result;
-  in_turn(points.size(), [&](std::size_t i) {
-    const std::uint32_t own = order.order_of_point[i];
+  result.stand_in.reserve(order.order_of_point.size());
+  in_turn(order.order_of_point.size(), [&](std::size_t i) {
+    const std::uint32_t place = order.order_of_point[i];
+    const std::uint32_t own = all ? place : nearest[place];
     result.stand_in.push_back(cover.stand_in[own]);
-    const bool is_far = distance(points[i], order.points[own]) > cover.far;
+    const bool is_far = distance(order.points[place], candidates[own]) > cover.far;
     result.outlier_count += cover.is_outlier[own] || is_far ? 1 : 0;
   });
   if (cover.points.size() > kNeighbors) {

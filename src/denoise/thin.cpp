@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/quantile.hpp"
-#include "base/spatial_order.hpp"
 #include "base/threads.hpp"
 #include "denoise/planes.hpp"
 
@@ -50,8 +49,7 @@ bool surface_shows(std::span<const Vec3> points, std::size_t stride, int threads
 
 }  // namespace
 
-std::size_t useful_points(std::span<const Vec3> points, int threads) {
-  const std::vector<Vec3> ordered = sort_spatially(points, threads).points;
+std::size_t useful_points(std::span<const Vec3> ordered, int threads) {
   std::size_t stride = 1;
   while (ordered.size() / (2 * stride) >= kSamples && !surface_shows(ordered, stride, threads)) {
     stride *= 2;

@@ -1,12 +1,12 @@
+#include "ground/ground.hpp"
+
 #include <algorithm>
 #include <array>
-#include <morsel/ground.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "base/box.hpp"
-#include "base/spatial_order.hpp"
 #include "ground/contact.hpp"
 #include "ground/plane.hpp"
 
@@ -51,9 +51,13 @@ std::size_t Ground::count_apart() const {
 }
 
 Ground find_ground(std::span<const Vec3> points, const GroundOptions& options) {
+  if (options.mode == GroundMode::kKeep) return {};
+  return find_ground(sort_spatially(points, options.threads), options);
+}
+
+Ground find_ground(const SpatialOrder& order, const GroundOptions& options) {
   Ground ground;
   if (options.mode == GroundMode::kKeep) return ground;
-  const SpatialOrder order = sort_spatially(points, options.threads);
   ground.plane = choose_plane(order.points, options.mode);
   if (!ground.plane) return ground;
   Contact contact = find_contact(order.points, *ground.plane, options.threads);

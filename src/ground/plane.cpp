@@ -10,6 +10,7 @@
 
 #include "base/quantile.hpp"
 #include "base/random.hpp"
+#include "base/spatial_order.hpp"
 #include "denoise/planes.hpp"
 
 namespace morsel {
@@ -192,13 +193,6 @@ double open_sides(std::span<const Vec3> points, const GroundPlane& plane) {
 }
 
 }  // namespace
-
-std::vector<Vec3> evenly_chosen(std::span<const Vec3> points, std::size_t most) {
-  std::vector<Vec3> chosen;
-  const std::size_t count = std::min(most, points.size());
-  for (std::size_t i = 0; i < count; ++i) chosen.push_back(points[i * points.size() / count]);
-  return chosen;
-}
 
 std::optional<GroundPlane> find_plane(std::span<const Vec3> points, double diagonal) {
   if (points.size() < 3) return std::nullopt;

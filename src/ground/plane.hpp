@@ -11,9 +11,6 @@
 
 namespace morsel {
 
-/// Every k-th, `most` at most: of points along a curve that fills space, evenly from everywhere.
-[[nodiscard]] std::vector<Vec3> evenly_chosen(std::span<const Vec3> points, std::size_t most);
-
 /// The plane with most points on it and fewest on its emptier side, as thick as its points' noise.
 /// None where no plane has more of the former. `points` is a sample of the cloud, of extent
 /// `diagonal`. Cost: O(n).

@@ -10,7 +10,10 @@
 
 #include "base/cancel.hpp"
 #include "base/memory.hpp"
+#include "base/spatial_order.hpp"
+#include "denoise/denoise.hpp"
 #include "denoise/thin.hpp"
+#include "ground/ground.hpp"
 
 namespace morsel {
 namespace {
@@ -50,28 +53,26 @@ class StageRunner {
   double done_ = 0.0;
 };
 
-Denoised take_as_they_are(std::span<const Vec3> points) {
+Denoised take_as_they_are(const SpatialOrder& order) {
   Denoised result;
-  result.points.assign(points.begin(), points.end());
-  result.stand_in.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    result.stand_in[i] = static_cast<std::uint32_t>(i);
-  }
+  result.points = order.points;
+  result.stand_in = order.order_of_point;
   return result;
 }
 
 // The points that are of objects and what closes those from below, without noise.
-Denoised denoise_objects(std::span<const Vec3> points, const Ground& ground,
+Denoised denoise_objects(const SpatialOrder& order, const Ground& ground,
                          const DenoiseOptions& options, const Progress* progress) {
-  if (!ground.plane) return denoise(points, options, progress);
+  if (!ground.plane) return denoise(order, options, progress);
+  const std::vector<std::uint32_t>& place = order.order_of_point;
   std::vector<Vec3> objects;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (ground.apart[i] == 0) objects.push_back(points[i]);
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (ground.apart[i] == 0) objects.push_back(order.points[place[i]]);
   }
   objects.insert(objects.end(), ground.base.begin(), ground.base.end());
   Denoised result = denoise(objects, options, progress);
-  std::vector<std::uint32_t> stand_in(points.size(), kNoStandIn);
-  for (std::size_t i = 0, k = 0; i < points.size(); ++i) {
+  std::vector<std::uint32_t> stand_in(place.size(), kNoStandIn);
+  for (std::size_t i = 0, k = 0; i < place.size(); ++i) {
     if (ground.apart[i] == 0) stand_in[i] = result.stand_in[k++];
   }
   result.stand_in = std::move(stand_in);
@@ -208,15 +209,15 @@ struct Attempt {
   }
 };
 
-Attempt attempt(std::span<const Vec3> points, const Ground& ground, std::size_t most,
+Attempt attempt(const SpatialOrder& order, const Ground& ground, std::size_t most,
                 const SegmentOptions& options, StageRunner& stages, const Progress* progress) {
   Attempt a;
   a.denoised = stages.run("denoise", 0.02, [&] {
-    if (options.interior.method == Method::kPaper) return take_as_they_are(points);
+    if (options.interior.method == Method::kPaper) return take_as_they_are(order);
     DenoiseOptions denoise_options = options.denoise;
     denoise_options.threads = options.threads;
     denoise_options.most_points = most;
-    return denoise_objects(points, ground, denoise_options, progress);
+    return denoise_objects(order, ground, denoise_options, progress);
   });
   a.complex = stages.run("triangulate", 0.2, [&] {
     return triangulate(a.denoised.points, {options.threads}, progress);
@@ -235,18 +236,18 @@ Attempt attempt(std::span<const Vec3> points, const Ground& ground, std::size_t 
 }
 
 // With as few points as show all of the inside, or those that show most of it.
-Attempt attempt_with_enough(std::span<const Vec3> points, const Ground& ground,
+Attempt attempt_with_enough(const SpatialOrder& order, const Ground& ground,
                             const SegmentOptions& options, StageRunner& stages,
                             const Progress* progress) {
   const bool all = options.interior.method == Method::kPaper || options.denoise.rounds == 0;
   const std::size_t limit = options.denoise.most_points;
   std::size_t most = all ? limit : std::min(kEnoughPoints, limit);
-  Attempt best = attempt(points, ground, most, options, stages, progress);
-  if (best.lost() <= kLostSurface || most >= std::min(limit, points.size())) return best;
-  const std::size_t useful = std::min(limit, useful_points(points, options.threads));
+  Attempt best = attempt(order, ground, most, options, stages, progress);
+  if (best.lost() <= kLostSurface || most >= std::min(limit, order.points.size())) return best;
+  const std::size_t useful = std::min(limit, useful_points(order.points, options.threads));
   while (best.lost() > kLostSurface && most < useful) {
     most = std::min(kManyMore * most, useful);
-    Attempt next = attempt(points, ground, most, options, stages, progress);
+    Attempt next = attempt(order, ground, most, options, stages, progress);
     if (next.lost() < best.lost()) best = std::move(next);
   }
   return best;
@@ -269,10 +270,12 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
   const bool paper = options.interior.method == Method::kPaper;
   Segmentation s;
   StageRunner stages(s.costs, progress);
-  s.ground = stages.run("ground", 0.0, [&] {
-    return paper ? Ground{} : find_ground(points, {options.ground.mode, options.threads});
+  const SpatialOrder order =
+      stages.run("sort", 0.0, [&] { return sort_spatially(points, options.threads); });
+  s.ground = stages.run("ground", 0.01, [&] {
+    return paper ? Ground{} : find_ground(order, {options.ground.mode, options.threads});
   });
-  Attempt found = attempt_with_enough(points, s.ground, options, stages, progress);
+  Attempt found = attempt_with_enough(order, s.ground, options, stages, progress);
   s.denoised = std::move(found.denoised);
   s.complex = std::move(found.complex);
   s.interior = std::move(found.interior);

@@ -560,11 +560,11 @@ TEST(SegmentTest, ReportsProgressAndStages) {
   });
   const Segmentation s = segment(shapes::sphere(2000), {}, &progress);
   EXPECT_EQ(last, 1.0);
-  const std::vector<std::string> expected{"ground",    "denoise",  "triangulate",
-                                          "neighbors", "interior", "basins",
-                                          "merge",     "cut",      "done"};
+  const std::vector<std::string> expected{"sort",      "ground",   "denoise", "triangulate",
+                                          "neighbors", "interior", "basins",  "merge",
+                                          "cut",       "done"};
   EXPECT_EQ(stages, expected);
-  ASSERT_EQ(s.costs.size(), 8U);
+  ASSERT_EQ(s.costs.size(), 9U);
   for (const StageCost& cost : s.costs) {
     EXPECT_GE(cost.seconds, 0.0);
     EXPECT_GT(cost.peak_bytes, 1U << 20);
@@ -573,7 +573,7 @@ TEST(SegmentTest, ReportsProgressAndStages) {
 
 TEST(SegmentTest, CanBeCancelledAtEveryStage) {
   const Points points = shapes::sphere(1000);
-  for (int stop = 0; stop < 9; ++stop) {
+  for (int stop = 0; stop < 10; ++stop) {
     int reports = 0;
     Progress* handle = nullptr;
     Progress progress([&](std::string_view, double) {

@@ -1,0 +1,14 @@
+// Denoising of points that are sorted already.
+#pragma once
+
+#include <morsel/denoise.hpp>
+
+#include "base/spatial_order.hpp"
+
+namespace morsel {
+
+/// As denoise() of the points that `order` was made of. `options` are valid.
+[[nodiscard]] Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options,
+                               const Progress* progress);
+
+}  // namespace morsel
