@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "delaunay/balls.hpp"
@@ -22,78 +23,69 @@ constexpr double kAllWithin = 0.6;
 // How many walks take turns: each waits for memory at every step, and meanwhile the others go on.
 constexpr std::size_t kAbreast = 12;
 
+enum class Outcome : std::uint8_t {
+  kUnderway,
+  kInside,   // arrived, having left the inside for at most `tolerance` units in all
+  kOutside,  // has left it for longer
+};
+
 // A straight walk from cell to cell along the segment between two cells' centroids. Each corner is
-// seen from the start along the way: x and y across it, z along it, 1 at the end. The way leaves a
-// cell through the facet whose image holds the origin.
+// seen from the start along the way, as x and y across it. The way leaves a cell through the facet
+// whose image holds the origin.
 class SegmentWalk {
  public:
-  enum class State : std::uint8_t {
-    kUnderway,
-    kInside,   // arrived, having left the inside for at most `tolerance` units in all
-    kOutside,  // has left it for longer
-  };
-
-  SegmentWalk(const DelaunayComplex& complex, const Interior& interior, std::uint32_t from,
-              std::uint32_t to, const Vec3& start, const Vec3& end, double tolerance)
-      : complex_(&complex),
-        interior_(&interior),
-        view_(start, end),
-        to_(to),
-        allowed_(tolerance / view_.length()) {
-    if (from == to) {
-      state_ = State::kInside;
-      return;
-    }
+  SegmentWalk() = default;
+  SegmentWalk(const DelaunayComplex& complex, std::uint32_t from, std::uint32_t to,
+              const Vec3& start, const Vec3& end, double tolerance)
+      : view_(start, end), to_(to), allowed_(tolerance / view_.length()) {
     cell_ = from;
-    inner_ = is_inner(from);
-    facet_ = first_facet(from);
-    enter_next();
+    if (from != to) leave_first(complex);
   }
 
-  [[nodiscard]] State state() const { return state_; }
-
-  // A step is two halves, each of which ends by asking for the memory that the next reads. The
-  // first looks from the cell just entered for its corner opposite the facet of entry, if the walk
-  // goes on.
-  void look() {
-    // The end may lie in a neighbour, as rounding has it.
-    const auto& [a, b, c] = facet_.corners;
-    const bool beyond = a.z >= 1.0 && b.z >= 1.0 && c.z >= 1.0;
-    if (!within_tolerance()) {
-      state_ = State::kOutside;
-    } else if (cell_ == to_ || beyond || walks_in_circle()) {
-      state_ = State::kInside;
-    } else {
-      vertex_ = complex_->cells[cell_][slot_of(complex_->neighbors[cell_], previous_)];
-      __builtin_prefetch(&complex_->vertices[vertex_]);
+  // Enters the cell behind the facet held, and goes on to the facet of leaving it.
+  Outcome advance(const DelaunayComplex& complex, const std::vector<CellSide>& side) {
+    const bool inner = cell_ != kNoCell && side[cell_] == CellSide::kInner;
+    if (!inner || !inner_) {
+      const double here = std::clamp(height(complex), entered_, 1.0);
+      if (!inner_) allowed_ -= here - entered_;
+      entered_ = here;
+      inner_ = inner;
+      if (allowed_ < 0.0) return Outcome::kOutside;
+      if (here >= 1.0) return Outcome::kInside;  // the end lies in a neighbour, as rounding has it
+      if (cell_ == kNoCell) return Outcome::kOutside;
     }
-  }
-
-  // The second goes from the facet of entry to that of leaving, where the new corner takes the
-  // place of the one that it hides, and through it.
-  void step() {
-    const Vec3 corner = view_.see(complex_->vertices[vertex_]);
+    if (cell_ == to_ || walks_in_circle()) return Outcome::kInside;
+    const std::array<std::uint32_t, 4>& corners = complex.cells[cell_];
+    // The corner opposite the facet of entry: what is left of the four without the three.
+    const std::uint32_t vertex = corners[0] ^ corners[1] ^ corners[2] ^ corners[3] ^ vertices_[0] ^
+                                 vertices_[1] ^ vertices_[2];
+    const auto [x, y] = view_.see(complex.vertices[vertex]);
     // Which corners lie to the left of the ray from the origin through the new one.
     unsigned left = 0;
     for (unsigned k = 0; k < 3; ++k) {
-      left |= static_cast<unsigned>(turn(corner, facet_.corners[k]) >= 0.0) << k;
+      left |= static_cast<unsigned>(x * y_[k] >= y * x_[k]) << k;
     }
-    // The ray is met again between a left one and a right one; the third corner is hidden.
+    // The ray is met again between a left one and a right one; the third corner is hidden, and the
+    // new one takes its place.
     constexpr std::array<std::uint8_t, 8> kHidden{0, 2, 0, 0, 1, 2, 1, 0};
     const std::size_t hidden = kHidden[left];
-    facet_.slot = slot_of(complex_->cells[cell_], facet_.vertices[hidden]);
-    facet_.corners[hidden] = corner;
-    facet_.vertices[hidden] = vertex_;
-    enter_next();
+    cell_ = complex.neighbors[cell_][slot_of(corners, vertices_[hidden])];
+    vertices_[hidden] = vertex;
+    x_[hidden] = x;
+    y_[hidden] = y;
+    if (cell_ != kNoCell) {
+      __builtin_prefetch(&complex.cells[cell_]);
+      __builtin_prefetch(&complex.neighbors[cell_]);
+    }
+    return Outcome::kUnderway;
   }
 
  private:
   class View {
    public:
-    View(const Vec3& start, const Vec3& end) : start_(start) {
-      const Vec3 way = end - start;
-      length_ = norm(way);
-      const Vec3 along = (1.0 / length_) * way;
+    View() = default;
+    View(const Vec3& start, const Vec3& end) : start_(start), way_(end - start) {
+      const Vec3 along = (1.0 / length()) * way_;
       // Any axis across will do; that of the smallest component is far from parallel.
       const Vec3 size{std::abs(along.x), std::abs(along.y), std::abs(along.z)};
       const Vec3 axis = size.x <= size.y && size.x <= size.z ? Vec3{1.0, 0.0, 0.0}
@@ -102,28 +94,25 @@ class SegmentWalk {
       const Vec3 across = cross(along, axis);
       x_ = (1.0 / norm(across)) * across;
       y_ = cross(along, x_);
-      z_ = (1.0 / length_) * along;
       // Off the axis by next to nothing, so that regular samples have no corner exactly on it.
       constexpr double kNextToNothing = 1e-9;
-      start_ = start_ + kNextToNothing * length_ * (x_ + 0.6180339887 * y_);
+      start_ = start_ + kNextToNothing * length() * (x_ + 0.6180339887 * y_);
     }
-    [[nodiscard]] double length() const { return length_; }
-    [[nodiscard]] Vec3 see(const Vec3& p) const {
+    [[nodiscard]] double length() const { return norm(way_); }
+    // Across the way, in units.
+    [[nodiscard]] std::pair<double, double> see(const Vec3& p) const {
       const Vec3 d = p - start_;
-      return {dot(x_, d), dot(y_, d), dot(z_, d)};
+      return {dot(x_, d), dot(y_, d)};
+    }
+    // Along the way, 1 at its end.
+    [[nodiscard]] double depth(const Vec3& p) const {
+      return dot(way_, p - start_) / squared_norm(way_);
     }
 
    private:
     Vec3 start_;
-    double length_ = 0.0;
-    Vec3 x_, y_, z_;
-  };
-
-  // The way out of a cell: counter-clockwise as seen by the eye of the walk.
-  struct Facet {
-    std::array<Vec3, 3> corners;
-    std::array<std::uint32_t, 3> vertices;
-    std::size_t slot;  // opposite it, in the cell that is left
+    Vec3 way_;
+    Vec3 x_, y_;
   };
 
   // Without a branch: which one it is cannot be foreseen.
@@ -133,65 +122,44 @@ class SegmentWalk {
            3 * static_cast<std::size_t>(four[3] == value);
   }
 
-  // Twice the signed area of the origin and two corners.
-  static double turn(const Vec3& a, const Vec3& b) { return a.x * b.y - a.y * b.x; }
-
-  // Where the segment meets the facet.
-  static double height(const Facet& facet) {
-    const auto& [a, b, c] = facet.corners;
-    const double wa = turn(b, c);
-    const double wb = turn(c, a);
-    const double wc = turn(a, b);
-    const double sum = wa + wb + wc;
-    return sum > 0.0 ? (wa * a.z + wb * b.z + wc * c.z) / sum : a.z;
+  // Twice the signed area of the origin and two corners of the facet held.
+  [[nodiscard]] double turn(std::size_t a, std::size_t b) const {
+    return x_[a] * y_[b] - y_[a] * x_[b];
   }
 
-  [[nodiscard]] bool is_inner(std::uint32_t cell) const {
-    return interior_->side[cell] == CellSide::kInner;
+  // Where the segment meets the facet held.
+  [[nodiscard]] double height(const DelaunayComplex& complex) const {
+    const auto depth = [&](std::size_t k) { return view_.depth(complex.vertices[vertices_[k]]); };
+    const std::array<double, 3> weights{turn(1, 2), turn(2, 0), turn(0, 1)};
+    const double sum = weights[0] + weights[1] + weights[2];
+    if (!(sum > 0.0)) return depth(0);
+    return (weights[0] * depth(0) + weights[1] * depth(1) + weights[2] * depth(2)) / sum;
   }
 
-  // The facet of the first cell whose image holds the origin most clearly.
-  [[nodiscard]] Facet first_facet(std::uint32_t cell) const {
-    Facet best{};
+  // Out of the first cell through the facet whose image holds the origin most clearly.
+  void leave_first(const DelaunayComplex& complex) {
+    const std::array<std::uint32_t, 4>& corners = complex.cells[cell_];
+    std::array<double, 4> x{};
+    std::array<double, 4> y{};
+    for (std::size_t k = 0; k < 4; ++k)
+      std::tie(x[k], y[k]) = view_.see(complex.vertices[corners[k]]);
+    const auto turn_of = [&](int a, int b) { return x[a] * y[b] - y[a] * x[b]; };
+    std::size_t best = 0;
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t slot = 0; slot < 4; ++slot) {
-      Facet facet{};
-      facet.slot = slot;
-      for (std::size_t k = 0; k < 3; ++k) {
-        facet.vertices[k] = complex_->cells[cell][static_cast<std::size_t>(kFacetSlots[slot][k])];
-        facet.corners[k] = view_.see(complex_->vertices[facet.vertices[k]]);
-      }
-      const auto& [a, b, c] = facet.corners;
-      const double least = std::min({turn(a, b), turn(b, c), turn(c, a)});
+      const auto& [a, b, c] = kFacetSlots[slot];
+      const double least = std::min({turn_of(a, b), turn_of(b, c), turn_of(c, a)});
       if (least <= most) continue;
       most = least;
-      best = facet;
+      best = slot;
     }
-    return best;
-  }
-
-  // Through the facet held, out of the cell.
-  void enter_next() {
-    previous_ = cell_;
-    cell_ = complex_->neighbors[cell_][facet_.slot];
-
-    if (cell_ == kNoCell) {
-      state_ = State::kOutside;
-      return;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto corner = static_cast<std::size_t>(kFacetSlots[best][k]);
+      vertices_[k] = corners[corner];
+      x_[k] = x[corner];
+      y_[k] = y[corner];
     }
-    __builtin_prefetch(&complex_->cells[cell_]);
-    __builtin_prefetch(&complex_->neighbors[cell_]);
-    __builtin_prefetch(&interior_->side[cell_]);
-  }
-
-  // The segment outside ends or begins at the facet held, or goes on.
-  [[nodiscard]] bool within_tolerance() {
-    const bool was_inner = std::exchange(inner_, is_inner(cell_));
-    if (was_inner && inner_) return true;
-    const double here = std::clamp(height(facet_), entered_, 1.0);
-    if (!was_inner) allowed_ -= here - entered_;
-    entered_ = here;
-    return allowed_ >= 0.0;
+    cell_ = complex.neighbors[cell_][best];
   }
 
   // A straight walk meets no cell twice; where cells are flat, rounding may turn it in a circle
@@ -205,21 +173,19 @@ class SegmentWalk {
     return false;
   }
 
-  const DelaunayComplex* complex_;
-  const Interior* interior_;
   View view_;
-  std::uint32_t to_;
-  double allowed_;        // outside, as a share of the segment
-  double entered_ = 0.0;  // where the segment last left or entered the inside, as a share
-  State state_ = State::kUnderway;
-  bool inner_ = true;  // the cell
-  std::uint32_t cell_ = kNoCell;
-  std::uint32_t previous_ = kNoCell;
-  std::uint32_t vertex_ = 0;
-  Facet facet_{};
+  // The facet held: counter-clockwise as seen by the eye of the walk.
+  std::array<double, 3> x_{};
+  std::array<double, 3> y_{};
+  std::array<std::uint32_t, 3> vertices_{};
+  std::uint32_t cell_ = kNoCell;  // behind it
+  std::uint32_t to_ = kNoCell;
   std::uint32_t milestone_ = kNoCell;
-  std::size_t step_ = 0;
-  std::size_t next_milestone_ = 64;
+  std::uint32_t step_ = 0;
+  std::uint32_t next_milestone_ = 64;
+  bool inner_ = true;     // before it
+  double allowed_ = 0.0;  // outside, as a share of the segment
+  double entered_ = 0.0;  // where the segment last left or entered the inside, as a share
 };
 
 }  // namespace
@@ -244,14 +210,8 @@ void SightSearch::fill(const std::vector<Place>& places, double extent, Row& row
     SegmentWalk walk;
     std::size_t goal;
   };
-  std::vector<Underway> underway;
-  const auto drop_ended = [&] {
-    std::erase_if(underway, [&](const Underway& one) {
-      if (one.walk.state() == SegmentWalk::State::kUnderway) return false;
-      row.seen[one.goal] = one.walk.state() == SegmentWalk::State::kInside ? 1.0F : 0.0F;
-      return true;
-    });
-  };
+  std::array<Underway, kAbreast> underway;
+  std::size_t count = 0;
   const auto start = [&](std::size_t goal) {
     const Place& to = places[goal];
     const double relative = distance(from.centroid, to.centroid) / extent;
@@ -260,17 +220,23 @@ void SightSearch::fill(const std::vector<Place>& places, double extent, Row& row
     if (one_for_two && (goal + places.size()) % 2 == 0) return;
     const double scaled = relative / kSightScale;
     row.weight[goal] = static_cast<float>((one_for_two ? 2.0 : 1.0) * std::exp(-scaled * scaled));
-    underway.push_back({SegmentWalk(complex_, interior_, from.cell, to.cell, from.centroid,
-                                    to.centroid, 0.5 * spacing_),
-                        goal});
+    underway[count++] = {
+        SegmentWalk(complex_, from.cell, to.cell, from.centroid, to.centroid, 0.5 * spacing_),
+        goal};
   };
   std::size_t next = 0;
-  while (next + 1 < places.size() || !underway.empty()) {
-    while (next + 1 < places.size() && underway.size() < kAbreast) start(next++);
-    for (Underway& one : underway) one.walk.look();
-    drop_ended();
-    for (Underway& one : underway) one.walk.step();
-    drop_ended();
+  while (true) {
+    while (next + 1 < places.size() && count < kAbreast) start(next++);
+    if (count == 0) break;
+    for (std::size_t i = 0; i < count;) {
+      const Outcome outcome = underway[i].walk.advance(complex_, interior_.side);
+      if (outcome == Outcome::kUnderway) {
+        ++i;
+        continue;
+      }
+      row.seen[underway[i].goal] = outcome == Outcome::kInside ? 1.0F : 0.0F;
+      underway[i] = underway[--count];
+    }
   }
 }
 
