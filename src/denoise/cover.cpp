@@ -1,6 +1,7 @@
 #include "denoise/cover.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -16,9 +17,11 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Of uniformly random points on a plane 1 / (1 + kCovered · radius²) are kept, measured; the radius
-// is in those of discs that hold one point on average.
+// Of uniformly random points on a plane 1 / (1 + kCovered · m) are kept, measured, if discs of the
+// radius within which none is kept hold m on average.
 constexpr double kCovered = 0.42;
+// So many neighbourhoods tell how far others lie.
+constexpr std::size_t kSounded = 256;
 
 // Over the 90% quantile of the reaches of the cloud, and over the reaches of the neighbours.
 constexpr double kFromCloud = 3.0;
@@ -52,9 +55,10 @@ class Covering {
     if (all) {
       keep_all(threads);
     } else {
+      search_.emplace(points_);
+      order_ = from_far_to_near(points_);
       const double beyond = static_cast<double>(points.size()) / static_cast<double>(most) - 1.0;
-      // The disc that reaches to the k-th nearest holds about k.
-      share_ = beyond / kCovered / static_cast<double>(std::max<std::size_t>(found_.size, 1));
+      share_ = share_of_reach(beyond / kCovered);
       keep_evenly();
     }
     far_ = kFromCloud * quantile(found_.reach, 0.9);
@@ -77,9 +81,30 @@ class Covering {
     found_ = find_neighborhoods(points_, found_.size, threads);
   }
 
+  // The squared distance within which `count` others lie on average, in squared reaches: on a
+  // surface count / size, more where neighbourhoods are as thick as the noise.
+  [[nodiscard]] double share_of_reach(double count) const {
+    const std::size_t size = found_.size;
+    const double on_surface = count / static_cast<double>(std::max<std::size_t>(size, 1));
+    const auto whole = static_cast<std::size_t>(count);
+    if (whole >= size) return on_surface;
+    const std::size_t sounded = std::min(order_.size(), kSounded);
+    std::vector<std::uint32_t> row(size);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < sounded; ++k) {
+      const std::uint32_t i = order_[k * order_.size() / sounded];
+      const double reach = search_->find(i, row);
+      const auto to = [&](std::size_t rank) {
+        return rank == 0 ? 0.0 : squared_distance(points_[i], points_[row[rank - 1]]);
+      };
+      sum += std::lerp(to(whole), to(whole + 1), count - std::floor(count)) / (reach * reach);
+    }
+    // Squares may overflow or vanish.
+    return std::isfinite(sum) ? sum / static_cast<double>(sounded) : on_surface;
+  }
+
   // Keeps what is not covered yet, from the outside to the middle: in another pose the same points.
   void keep_evenly() {
-    if (order_.empty()) order_ = from_far_to_near(points_);
     for (const std::uint32_t i : order_) {
       if (by_[i] == kNone && !is_outlier_[i]) keep(i);
     }
@@ -87,7 +112,6 @@ class Covering {
 
   void keep(std::uint32_t i) {
     if (kept_.size() % 1024 == 0) check_cancelled();
-    if (!search_) search_.emplace(points_);
     const auto own = static_cast<std::uint32_t>(kept_.size());
     kept_.push_back(i);
     by_[i] = own;
@@ -131,7 +155,7 @@ class Covering {
   std::span<const Vec3> points_;
   std::optional<NeighborSearch> search_;
   std::vector<std::uint32_t> order_;
-  double share_ = 0.0;  // of the squared reach: what is covered
+  double share_ = 0.0;  // of the squared reach: within it what is near is covered
   double far_ = 0.0;
   std::vector<std::uint32_t> kept_;  // in the order in which they were found, outliers too
   Neighborhoods found_;              // of those

@@ -39,10 +39,10 @@ struct Cover {
 /// Sets outliers apart and keeps about `most` of the other points, or all if there are no more. A
 /// point is an outlier if its `size` nearest neighbours are several times farther away than those
 /// of the cloud at large, or than their own neighbours'. None that is kept is close to another for
-/// the density around it: each that is not within some radius of one kept before is kept. The
-/// radius is a multiple of that of the disc that holds one point on average, which the distance to
-/// the farthest neighbour tells. `points` are distinct. Cost: O(n + m log n); on one thread if not
-/// all are kept, as what is looked at depends on what was kept.
+/// the density around it: each that is not within some radius of one kept before is kept. Within
+/// that radius lie as many points as `most` asks for; the distance to the farthest neighbour tells
+/// it, and how thick the cloud is. `points` are distinct. Cost: O(n + m log n); on one thread if
+/// not all are kept, as what is looked at depends on what was kept.
 [[nodiscard]] Cover cover_cloud(std::span<const Vec3> points, std::size_t most, std::size_t size,
                                 int threads);
 
