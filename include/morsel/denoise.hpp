@@ -36,9 +36,13 @@ struct Denoised {
   std::vector<std::uint32_t> stand_in;  ///< (n) index into `points` for each input point: its own,
                                         ///< for one left out that of the nearest point kept;
                                         ///< kNoStandIn in a Segmentation for the ground's
-  double noise = 0.0;       ///< estimated standard deviation across the surface, in units
-  double spacing = 0.0;     ///< median distance to the twelfth nearest neighbour, in units
-  int rounds = 0;           ///< of smoothing that were done
+  double noise = 0.0;    ///< estimated standard deviation across the surface, in units
+  double spacing = 0.0;  ///< median distance to the twelfth nearest neighbour, in units
+  int rounds = 0;        ///< of smoothing that were done
+  /// (k, 3) the points looked at that are no outliers, as they were, and the index into `points` of
+  /// one near each; empty if all of them are in `points`, unmoved.
+  std::vector<Vec3> samples;
+  std::vector<std::uint32_t> near_sample;
   double kept_share = 1.0;  ///< of the points looked at, 0 … 1: the others lay near one of `points`
   std::size_t outlier_count = 0;  ///< input points that were set apart
 };

@@ -44,8 +44,12 @@ struct Interior {
   std::vector<CellSide> side;  ///< (c)
   std::size_t inner_cells = 0;
   std::size_t outer_cells = 0;
-  double volume = 0.0;  ///< of the inner cells, in cubed units
+  /// Of the inner cells and, in a Segmentation, of what bulges over them, in cubed units.
+  double volume = 0.0;
   // Of the default method alone:
+  /// (c) Volume between each inner cell and the surface that all points show, in cubed units; set
+  /// in a Segmentation, empty where all points are vertices.
+  std::vector<double> bulges;
   std::vector<Opening> openings;  ///< of the inside's surface, the widest first
   double open_share = 0.0;        ///< of the inside's surface: what the openings take, 0 … 1
   double bare_share = 0.0;        ///< of the points' surface: what has no inside behind it, 0 … 1

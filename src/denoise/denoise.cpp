@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <morsel/error.hpp>
 #include <string>
+#include <utility>
 
 #include "base/cancel.hpp"
 #include "base/neighborhoods.hpp"
@@ -25,9 +26,9 @@ constexpr std::size_t kCandidates = 4;
 constexpr double kNoisyShare = 0.05;
 
 // The residuals of planes mix noise with curvature; the flattest fifth of the cloud holds little of
-// the latter. Some thousand planes tell it.
+// the latter. A thousand planes tell it.
 double estimate_noise(const Cover& cover) {
-  constexpr std::size_t kPlanes = 4096;
+  constexpr std::size_t kPlanes = 1024;
   std::vector<double> residuals;
   const std::size_t stride = std::max<std::size_t>(cover.kept.size() / kPlanes, 1);
   for (std::size_t k = 0; k < cover.kept.size(); k += stride) {
@@ -65,7 +66,7 @@ Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options,
     nearest = find_nearest(chosen, order.points, options.threads);
   }
   const std::vector<Vec3>& candidates = all ? order.points : chosen;
-  const Cover cover = cover_cloud(candidates, most, kNeighbors, options.threads);
+  Cover cover = cover_cloud(candidates, most, kNeighbors, options.threads);
   Denoised result;
   result.stand_in.reserve(order.order_of_point.size());
   in_turn(order.order_of_point.size(), [&](std::size_t i) {
@@ -83,6 +84,10 @@ Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options,
   }
   result.points = smooth(cover, result.rounds, options.threads);
   result.kept_share = cover.kept_share();
+  if (result.rounds > 0 || cover.kept.size() < cover.points.size()) {
+    result.samples = std::move(cover.points);
+    result.near_sample = std::move(cover.by);
+  }
   return result;
 }
 

@@ -57,6 +57,16 @@ double merge_ratio(const DelaunayComplex& complex, const Basins& basins, const N
   return std::max((larger - tolerance) / (neck.radius + tolerance), 1.0);
 }
 
+// Moments of a point mass.
+Moments point_moments(double volume, const Vec3& p) {
+  Moments moments;
+  moments.volume = volume;
+  moments.first = volume * p;
+  moments.second = {volume * p.x * p.x, volume * p.x * p.y, volume * p.x * p.z,
+                    volume * p.y * p.y, volume * p.y * p.z, volume * p.z * p.z};
+  return moments;
+}
+
 // Moments of a tetrahedron with vertices p0 … p3 about the origin: ∫ x xᵀ = V/20 (Σ p pᵀ + s sᵀ)
 // with s = Σ p.
 Moments cell_moments(const DelaunayComplex& complex, std::uint32_t cell, const Vec3& origin) {
@@ -79,8 +89,9 @@ Moments cell_moments(const DelaunayComplex& complex, std::uint32_t cell, const V
   return moments;
 }
 
-void sum_pieces(const DelaunayComplex& complex, const std::vector<std::uint32_t>& piece_of_cell,
-                std::size_t count, MergeTree& tree) {
+void sum_pieces(const DelaunayComplex& complex, const Interior& interior,
+                const std::vector<std::uint32_t>& piece_of_cell, std::size_t count,
+                MergeTree& tree) {
   tree.origin = complex.vertices.empty() ? Vec3{} : complex.vertices.front();
   tree.moments.resize(count);
   tree.ball_center.resize(count);
@@ -90,6 +101,11 @@ void sum_pieces(const DelaunayComplex& complex, const std::vector<std::uint32_t>
     const std::uint32_t p = piece_of_cell[c];
     if (p == kNoBasin) return;
     tree.moments[p] += cell_moments(complex, c, tree.origin);
+    if (!interior.bulges.empty() && interior.bulges[c] != 0.0) {
+      // As if it lay where the cell does.
+      const Vec3 place = cell_centroid(complex, c) - tree.origin;
+      tree.moments[p] += point_moments(interior.bulges[c], place);
+    }
     if (complex.radii[c] > tree.ball_radius[p]) {
       tree.ball_radius[p] = complex.radii[c];
       tree.ball_center[p] = complex.centers[c];
@@ -290,11 +306,11 @@ void assign_points(const DelaunayComplex& complex,
 }
 
 MergeTree build_as_published(const DelaunayComplex& complex, const VertexCells& vertex_cells,
-                             const Basins& basins, int threads) {
+                             const Interior& interior, const Basins& basins, int threads) {
   MergeTree tree;
   tree.natural_ratio = 1.5;
   tree.necks = find_necks(complex, basins.basin_of_cell, threads);
-  sum_pieces(complex, basins.basin_of_cell, basins.count(), tree);
+  sum_pieces(complex, interior, basins.basin_of_cell, basins.count(), tree);
   tree.merges = link(complex, basins, tree.necks, 0.0);
   assign_points(complex, label_vertices(complex, vertex_cells, basins, tree.necks, threads), tree);
   // The paper keeps small segments; only its matching leaves them out.
@@ -316,7 +332,7 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
                            const std::vector<double>& lambda, const Interior& interior,
                            const Basins& basins, Method method, int threads) {
   if (method == Method::kPaper) {
-    return build_as_published(complex, vertex_cells, basins, threads);
+    return build_as_published(complex, vertex_cells, interior, basins, threads);
   }
   const double spacing = lambda.empty() ? 0.0
                                         : std::accumulate(lambda.begin(), lambda.end(), 0.0) /
@@ -329,7 +345,7 @@ MergeTree build_merge_tree(const DelaunayComplex& complex, const VertexCells& ve
   MergeTree tree;
   tree.natural_ratio = natural_merge_ratio();
   tree.necks = find_necks(complex, pieces.piece_of_cell, threads);
-  sum_pieces(complex, pieces.piece_of_cell, pieces.count(), tree);
+  sum_pieces(complex, interior, pieces.piece_of_cell, pieces.count(), tree);
   assign_points(complex,
                 label_vertices_by_piece(complex, vertex_cells, basins, groups, pieces, threads),
                 tree);

@@ -14,6 +14,7 @@
 #include "denoise/denoise.hpp"
 #include "denoise/thin.hpp"
 #include "ground/ground.hpp"
+#include "interior/bulge.hpp"
 
 namespace morsel {
 namespace {
@@ -87,6 +88,16 @@ std::vector<double> find_lambda(const DelaunayComplex& complex, double kept_shar
   std::vector<double> lambda = mean_neighbor_distance(complex, threads);
   for (double& value : lambda) value *= evenness;
   return lambda;
+}
+
+std::vector<std::uint32_t> vertices_of_samples(const DelaunayComplex& complex,
+                                               const Denoised& denoised) {
+  std::vector<std::uint32_t> vertices;
+  vertices.reserve(denoised.near_sample.size());
+  for (const std::uint32_t i : denoised.near_sample) {
+    vertices.push_back(complex.vertex_of_point[i]);
+  }
+  return vertices;
 }
 
 // From here on "point" means a point of the input, outliers and repeated ones included.
@@ -209,6 +220,15 @@ struct Attempt {
   }
 };
 
+// What the points that are no vertices say of the surface above the inner cells.
+void add_bulges(const Attempt& a, const std::vector<std::uint32_t>& vertex_of_sample,
+                Interior& interior) {
+  if (vertex_of_sample.empty()) return;
+  interior.bulges = find_bulges(a.complex, interior.side,
+                                {a.denoised.samples, vertex_of_sample, a.denoised.noise});
+  for (const double bulge : interior.bulges) interior.volume += bulge;
+}
+
 Attempt attempt(const SpatialOrder& order, const Ground& ground, std::size_t most,
                 const SegmentOptions& options, StageRunner& stages, const Progress* progress) {
   Attempt a;
@@ -225,10 +245,14 @@ Attempt attempt(const SpatialOrder& order, const Ground& ground, std::size_t mos
   a.lambda = stages.run("neighbors", 0.7, [&] {
     return find_lambda(a.complex, a.denoised.kept_share, options.threads);
   });
+  const std::vector<std::uint32_t> vertex_of_sample = vertices_of_samples(a.complex, a.denoised);
   a.complex.vertex_of_point = vertices_of_input(a.complex, a.denoised);
   a.vertex_cells = find_vertex_cells(a.complex);
   a.interior = stages.run("interior", 0.75, [&] {
-    return find_interior(a.complex, a.vertex_cells, a.lambda, options.interior, options.threads);
+    Interior interior =
+        find_interior(a.complex, a.vertex_cells, a.lambda, options.interior, options.threads);
+    add_bulges(a, vertex_of_sample, interior);
+    return interior;
   });
   a.basins = stages.run("basins", 0.85,
                         [&] { return find_basins(a.complex, a.interior, options.threads); });
