@@ -39,8 +39,8 @@ struct Denoised {
   double noise = 0.0;    ///< estimated standard deviation across the surface, in units
   double spacing = 0.0;  ///< median distance to the twelfth nearest neighbour, in units
   int rounds = 0;        ///< of smoothing that were done
-  /// (k, 3) the points looked at that are no outliers, as they were, and the index into `points` of
-  /// one near each; empty if all of them are in `points`, unmoved.
+  /// (k, 3) the points looked at that are no outliers, and the index into `points` of one near
+  /// each; empty if all of them are in `points`, or those were moved.
   std::vector<Vec3> samples;
   std::vector<std::uint32_t> near_sample;
   double kept_share = 1.0;  ///< of the points looked at, 0 … 1: the others lay near one of `points`

@@ -48,7 +48,7 @@ struct Interior {
   double volume = 0.0;
   // Of the default method alone:
   /// (c) Volume between each inner cell and the surface that all points show, in cubed units; set
-  /// in a Segmentation, empty where all points are vertices.
+  /// in a Segmentation, empty where all points are vertices or smoothing moved them.
   std::vector<double> bulges;
   std::vector<Opening> openings;  ///< of the inside's surface, the widest first
   double open_share = 0.0;        ///< of the inside's surface: what the openings take, 0 … 1

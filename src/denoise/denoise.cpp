@@ -84,7 +84,7 @@ Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options,
   }
   result.points = smooth(cover, result.rounds, options.threads);
   result.kept_share = cover.kept_share();
-  if (result.rounds > 0 || cover.kept.size() < cover.points.size()) {
+  if (result.rounds == 0 && cover.kept.size() < cover.points.size()) {
     result.samples = std::move(cover.points);
     result.near_sample = std::move(cover.by);
   }

@@ -13,7 +13,6 @@ namespace {
 
 // A sample that lies higher, as a share of how far it is from its vertex, is of another sheet.
 constexpr double kSteep = 0.5;
-constexpr double kNoiseWidths = 3.0;
 
 // A triangle that bounds the inside. From its k-th corner a point lies slope[k + 1] · (point −
 // corner) along one of the edges there and slope[k + 2] · … along the other.
@@ -113,7 +112,7 @@ std::vector<double> mean_heights(const DelaunayComplex& complex,
     const std::uint32_t v = samples.vertex[i];
     const Vec3 arm = samples.points[i] - complex.vertices[v];
     const double height = height_of(arm, v, fans.of(v), surface);
-    if (!(std::abs(height) <= kSteep * norm(arm) + kNoiseWidths * samples.noise)) return;
+    if (!(std::abs(height) <= kSteep * norm(arm))) return;
     sum[v] += height;
     counted[v] += 1.0;
   });

@@ -12,14 +12,12 @@ namespace morsel {
 struct SurfaceSamples {
   std::span<const Vec3> points;
   std::span<const std::uint32_t> vertex;
-  double noise = 0.0;  ///< standard deviation across the surface, in units
 };
 
 /// (c) The volume between each inner cell's facets that bound the inside and the surface above
 /// them, negative where it lies beneath, in cubed units: triangles cut off what bulges and fill
-/// what is hollow, and of points in a band of noise those kept may lie rather outside. It is the
-/// area of a triangle times how high the samples around its corners lie, on average. Cost: O(c +
-/// samples).
+/// what is hollow. It is the area of a triangle times how high the samples around its corners lie,
+/// on average. Cost: O(c + samples).
 [[nodiscard]] std::vector<double> find_bulges(const DelaunayComplex& complex,
                                               const std::vector<CellSide>& side,
                                               const SurfaceSamples& samples);

@@ -224,8 +224,7 @@ struct Attempt {
 void add_bulges(const Attempt& a, const std::vector<std::uint32_t>& vertex_of_sample,
                 Interior& interior) {
   if (vertex_of_sample.empty()) return;
-  interior.bulges = find_bulges(a.complex, interior.side,
-                                {a.denoised.samples, vertex_of_sample, a.denoised.noise});
+  interior.bulges = find_bulges(a.complex, interior.side, {a.denoised.samples, vertex_of_sample});
   for (const double bulge : interior.bulges) interior.volume += bulge;
 }
 
