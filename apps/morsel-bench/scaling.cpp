@@ -352,11 +352,10 @@ void add_scaling(CLI::App& app) {
                    "An earlier --json: say which ratios are more than 10% above it, and fail")
       ->check(CLI::ExistingFile);
   command->footer(
-      "Kept are the points that were triangulated. Rest is what one thread needs apart from "
-      "sorting, "
-      "ground, "
-      "denoising\nand triangulation. Memory is the peak of the whole process. Stop is the longest "
-      "that it went\non after it was asked to stop, at 20 moments.");
+      "Kept are the points that were triangulated. Rest is what one thread needs apart from\n"
+      "sorting, ground, denoising and triangulation. Memory is the peak of the whole process. "
+      "Stop\n"
+      "is the longest that it went on after it was asked to stop, at 20 moments.");
   command->callback([options] { run(*options); });
 }
 

@@ -11,8 +11,8 @@ import pytest
 import morsel
 import shapes
 
-STAGES = ["sort", "ground", "denoise", "triangulate", "neighbors", "interior", "basins", "merge", "cut",
-          "done"]
+STAGES = ["sort", "ground", "denoise", "triangulate", "neighbors", "interior", "basins", "merge",
+          "cut", "done"]
 
 
 @pytest.fixture(scope="module")

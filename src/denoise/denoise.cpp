@@ -51,12 +51,10 @@ Denoised denoise(std::span<const Vec3> points, const DenoiseOptions& options,
                  const Progress* progress) {
   options.check();
   const CancelScope scope(progress);
-  return denoise(sort_spatially(points, options.threads), options, progress);
+  return denoise(sort_spatially(points, options.threads), options);
 }
 
-Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options,
-                 const Progress* progress) {
-  const CancelScope scope(progress);
+Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options) {
   const std::size_t most = options.most_points;
   const bool all = order.points.size() / kCandidates <= most;
   std::vector<Vec3> chosen;

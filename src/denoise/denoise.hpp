@@ -7,8 +7,8 @@
 
 namespace morsel {
 
-/// As denoise() of the points that `order` was made of. `options` are valid.
-[[nodiscard]] Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options,
-                               const Progress* progress);
+/// As denoise() of the points that `order` was made of. `options` are valid; who may cancel is for
+/// the caller to say.
+[[nodiscard]] Denoised denoise(const SpatialOrder& order, const DenoiseOptions& options);
 
 }  // namespace morsel

@@ -24,23 +24,22 @@ struct Triangle {
   std::array<Vec3, 3> slope;
 };
 
-Triangle make_triangle(const DelaunayComplex& complex, std::uint32_t cell, std::size_t slot) {
+Triangle make_triangle(const DelaunayComplex& complex, std::uint32_t cell, int slot) {
   Triangle triangle{};
   triangle.cell = cell;
-  std::array<Vec3, 3> p;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto corner = static_cast<std::size_t>(kFacetSlots[slot][k]);
-    triangle.corners[k] = complex.cells[cell][corner];
-    p[k] = complex.vertices[triangle.corners[k]];
+    triangle.corners[k] = complex.cells[cell][kFacetSlots[slot][k]];
   }
-  const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
+  const Facet facet = facet_of(complex, cell, slot);
+  const Vec3 n = normal_of(facet);
   const double twice_area = norm(n);
   triangle.area = 0.5 * twice_area;
   triangle.normal = (1.0 / twice_area) * n;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 opposite = p[(k + 2) % 3] - p[(k + 1) % 3];
-    triangle.slope[k] = (1.0 / twice_area) * cross(triangle.normal, opposite);
-  }
+  const auto slope_across = [&](const Vec3& opposite) {
+    return (1.0 / twice_area) * cross(triangle.normal, opposite);
+  };
+  triangle.slope = {slope_across(facet.c - facet.b), slope_across(facet.a - facet.c),
+                    slope_across(facet.b - facet.a)};
   return triangle;
 }
 
@@ -49,7 +48,7 @@ std::vector<Triangle> find_surface(const DelaunayComplex& complex,
   std::vector<Triangle> surface;
   in_turn(complex.cell_count(), [&](std::size_t c) {
     if (side[c] != CellSide::kInner) return;
-    for (std::size_t slot = 0; slot < 4; ++slot) {
+    for (int slot = 0; slot < 4; ++slot) {
       const std::uint32_t d = complex.neighbors[c][slot];
       if (d != kNoCell && side[d] == CellSide::kInner) continue;
       surface.push_back(make_triangle(complex, static_cast<std::uint32_t>(c), slot));

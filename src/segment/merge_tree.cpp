@@ -57,13 +57,21 @@ double merge_ratio(const DelaunayComplex& complex, const Basins& basins, const N
   return std::max((larger - tolerance) / (neck.radius + tolerance), 1.0);
 }
 
+void add_square(double weight, const Vec3& p, Moments& moments) {
+  moments.second[0] += weight * p.x * p.x;
+  moments.second[1] += weight * p.x * p.y;
+  moments.second[2] += weight * p.x * p.z;
+  moments.second[3] += weight * p.y * p.y;
+  moments.second[4] += weight * p.y * p.z;
+  moments.second[5] += weight * p.z * p.z;
+}
+
 // Moments of a point mass.
 Moments point_moments(double volume, const Vec3& p) {
   Moments moments;
   moments.volume = volume;
   moments.first = volume * p;
-  moments.second = {volume * p.x * p.x, volume * p.x * p.y, volume * p.x * p.z,
-                    volume * p.y * p.y, volume * p.y * p.z, volume * p.z * p.z};
+  add_square(volume, p, moments);
   return moments;
 }
 
@@ -75,17 +83,11 @@ Moments cell_moments(const DelaunayComplex& complex, std::uint32_t cell, const V
   Vec3 sum;
   for (const std::uint32_t v : complex.cells[cell]) sum = sum + (complex.vertices[v] - origin);
   moments.first = (0.25 * moments.volume) * sum;
-  const auto add = [&](const Vec3& p) {
-    const double w = moments.volume / 20.0;
-    moments.second[0] += w * p.x * p.x;
-    moments.second[1] += w * p.x * p.y;
-    moments.second[2] += w * p.x * p.z;
-    moments.second[3] += w * p.y * p.y;
-    moments.second[4] += w * p.y * p.z;
-    moments.second[5] += w * p.z * p.z;
-  };
-  add(sum);
-  for (const std::uint32_t v : complex.cells[cell]) add(complex.vertices[v] - origin);
+  const double weight = moments.volume / 20.0;
+  add_square(weight, sum, moments);
+  for (const std::uint32_t v : complex.cells[cell]) {
+    add_square(weight, complex.vertices[v] - origin, moments);
+  }
   return moments;
 }
 

@@ -63,15 +63,15 @@ Denoised take_as_they_are(const SpatialOrder& order) {
 
 // The points that are of objects and what closes those from below, without noise.
 Denoised denoise_objects(const SpatialOrder& order, const Ground& ground,
-                         const DenoiseOptions& options, const Progress* progress) {
-  if (!ground.plane) return denoise(order, options, progress);
+                         const DenoiseOptions& options) {
+  if (!ground.plane) return denoise(order, options);
   const std::vector<std::uint32_t>& place = order.order_of_point;
   std::vector<Vec3> objects;
   for (std::size_t i = 0; i < place.size(); ++i) {
     if (ground.apart[i] == 0) objects.push_back(order.points[place[i]]);
   }
   objects.insert(objects.end(), ground.base.begin(), ground.base.end());
-  Denoised result = denoise(objects, options, progress);
+  Denoised result = denoise(objects, options);
   std::vector<std::uint32_t> stand_in(place.size(), kNoStandIn);
   for (std::size_t i = 0, k = 0; i < place.size(); ++i) {
     if (ground.apart[i] == 0) stand_in[i] = result.stand_in[k++];
@@ -90,22 +90,12 @@ std::vector<double> find_lambda(const DelaunayComplex& complex, double kept_shar
   return lambda;
 }
 
-std::vector<std::uint32_t> vertices_of_samples(const DelaunayComplex& complex,
-                                               const Denoised& denoised) {
+// Those of the points that stand in for others.
+std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& stand_in,
+                                       const DelaunayComplex& complex) {
   std::vector<std::uint32_t> vertices;
-  vertices.reserve(denoised.near_sample.size());
-  for (const std::uint32_t i : denoised.near_sample) {
-    vertices.push_back(complex.vertex_of_point[i]);
-  }
-  return vertices;
-}
-
-// From here on "point" means a point of the input, outliers and repeated ones included.
-std::vector<std::uint32_t> vertices_of_input(const DelaunayComplex& complex,
-                                             const Denoised& denoised) {
-  std::vector<std::uint32_t> vertices;
-  vertices.reserve(denoised.stand_in.size());
-  for (const std::uint32_t i : denoised.stand_in) {
+  vertices.reserve(stand_in.size());
+  for (const std::uint32_t i : stand_in) {
     vertices.push_back(i == kNoStandIn ? kNoVertex : complex.vertex_of_point[i]);
   }
   return vertices;
@@ -229,23 +219,24 @@ void add_bulges(const Attempt& a, const std::vector<std::uint32_t>& vertex_of_sa
 }
 
 Attempt attempt(const SpatialOrder& order, const Ground& ground, std::size_t most,
-                const SegmentOptions& options, StageRunner& stages, const Progress* progress) {
+                const SegmentOptions& options, StageRunner& stages) {
   Attempt a;
   a.denoised = stages.run("denoise", 0.02, [&] {
     if (options.interior.method == Method::kPaper) return take_as_they_are(order);
     DenoiseOptions denoise_options = options.denoise;
     denoise_options.threads = options.threads;
     denoise_options.most_points = most;
-    return denoise_objects(order, ground, denoise_options, progress);
+    return denoise_objects(order, ground, denoise_options);
   });
-  a.complex = stages.run("triangulate", 0.2, [&] {
-    return triangulate(a.denoised.points, {options.threads}, progress);
-  });
+  a.complex = stages.run("triangulate", 0.2,
+                         [&] { return triangulate(a.denoised.points, {options.threads}); });
   a.lambda = stages.run("neighbors", 0.7, [&] {
     return find_lambda(a.complex, a.denoised.kept_share, options.threads);
   });
-  const std::vector<std::uint32_t> vertex_of_sample = vertices_of_samples(a.complex, a.denoised);
-  a.complex.vertex_of_point = vertices_of_input(a.complex, a.denoised);
+  const std::vector<std::uint32_t> vertex_of_sample =
+      vertices_of(a.denoised.near_sample, a.complex);
+  // From here on "point" means a point of the input, outliers and repeated ones included.
+  a.complex.vertex_of_point = vertices_of(a.denoised.stand_in, a.complex);
   a.vertex_cells = find_vertex_cells(a.complex);
   a.interior = stages.run("interior", 0.75, [&] {
     Interior interior =
@@ -260,17 +251,16 @@ Attempt attempt(const SpatialOrder& order, const Ground& ground, std::size_t mos
 
 // With as few points as show all of the inside, or those that show most of it.
 Attempt attempt_with_enough(const SpatialOrder& order, const Ground& ground,
-                            const SegmentOptions& options, StageRunner& stages,
-                            const Progress* progress) {
+                            const SegmentOptions& options, StageRunner& stages) {
   const bool all = options.interior.method == Method::kPaper || options.denoise.rounds == 0;
   const std::size_t limit = options.denoise.most_points;
   std::size_t most = all ? limit : std::min(kEnoughPoints, limit);
-  Attempt best = attempt(order, ground, most, options, stages, progress);
+  Attempt best = attempt(order, ground, most, options, stages);
   if (best.lost() <= kLostSurface || most >= std::min(limit, order.points.size())) return best;
   const std::size_t useful = std::min(limit, useful_points(order.points, options.threads));
   while (best.lost() > kLostSurface && most < useful) {
     most = std::min(kManyMore * most, useful);
-    Attempt next = attempt(order, ground, most, options, stages, progress);
+    Attempt next = attempt(order, ground, most, options, stages);
     if (next.lost() < best.lost()) best = std::move(next);
   }
   return best;
@@ -298,7 +288,7 @@ Segmentation segment(std::span<const Vec3> points, const SegmentOptions& options
   s.ground = stages.run("ground", 0.01, [&] {
     return paper ? Ground{} : find_ground(order, {options.ground.mode, options.threads});
   });
-  Attempt found = attempt_with_enough(order, s.ground, options, stages, progress);
+  Attempt found = attempt_with_enough(order, s.ground, options, stages);
   s.denoised = std::move(found.denoised);
   s.complex = std::move(found.complex);
   s.interior = std::move(found.interior);

@@ -85,7 +85,8 @@ class SegmentWalk {
    public:
     View() = default;
     View(const Vec3& start, const Vec3& end) : start_(start), way_(end - start) {
-      const Vec3 along = (1.0 / length()) * way_;
+      const double length = norm(way_);
+      const Vec3 along = (1.0 / length) * way_;
       // Any axis across will do; that of the smallest component is far from parallel.
       const Vec3 size{std::abs(along.x), std::abs(along.y), std::abs(along.z)};
       const Vec3 axis = size.x <= size.y && size.x <= size.z ? Vec3{1.0, 0.0, 0.0}
@@ -96,7 +97,7 @@ class SegmentWalk {
       y_ = cross(along, x_);
       // Off the axis by next to nothing, so that regular samples have no corner exactly on it.
       constexpr double kNextToNothing = 1e-9;
-      start_ = start_ + kNextToNothing * length() * (x_ + 0.6180339887 * y_);
+      start_ = start_ + kNextToNothing * length * (x_ + 0.6180339887 * y_);
     }
     [[nodiscard]] double length() const { return norm(way_); }
     // Across the way, in units.
@@ -122,18 +123,20 @@ class SegmentWalk {
            3 * static_cast<std::size_t>(four[3] == value);
   }
 
-  // Twice the signed area of the origin and two corners of the facet held.
-  [[nodiscard]] double turn(std::size_t a, std::size_t b) const {
-    return x_[a] * y_[b] - y_[a] * x_[b];
+  // Twice the signed area of the origin and two corners.
+  template <typename Coordinates>
+  static double turn(const Coordinates& x, const Coordinates& y, std::size_t a, std::size_t b) {
+    return x[a] * y[b] - y[a] * x[b];
   }
 
   // Where the segment meets the facet held.
   [[nodiscard]] double height(const DelaunayComplex& complex) const {
     const auto depth = [&](std::size_t k) { return view_.depth(complex.vertices[vertices_[k]]); };
-    const std::array<double, 3> weights{turn(1, 2), turn(2, 0), turn(0, 1)};
-    const double sum = weights[0] + weights[1] + weights[2];
-    if (!(sum > 0.0)) return depth(0);
-    return (weights[0] * depth(0) + weights[1] * depth(1) + weights[2] * depth(2)) / sum;
+    const double wa = turn(x_, y_, 1, 2);
+    const double wb = turn(x_, y_, 2, 0);
+    const double wc = turn(x_, y_, 0, 1);
+    const double sum = wa + wb + wc;
+    return sum > 0.0 ? (wa * depth(0) + wb * depth(1) + wc * depth(2)) / sum : depth(0);
   }
 
   // Out of the first cell through the facet whose image holds the origin most clearly.
@@ -141,14 +144,14 @@ class SegmentWalk {
     const std::array<std::uint32_t, 4>& corners = complex.cells[cell_];
     std::array<double, 4> x{};
     std::array<double, 4> y{};
-    for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < 4; ++k) {
       std::tie(x[k], y[k]) = view_.see(complex.vertices[corners[k]]);
-    const auto turn_of = [&](int a, int b) { return x[a] * y[b] - y[a] * x[b]; };
+    }
     std::size_t best = 0;
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t slot = 0; slot < 4; ++slot) {
       const auto& [a, b, c] = kFacetSlots[slot];
-      const double least = std::min({turn_of(a, b), turn_of(b, c), turn_of(c, a)});
+      const double least = std::min({turn(x, y, a, b), turn(x, y, b, c), turn(x, y, c, a)});
       if (least <= most) continue;
       most = least;
       best = slot;
